@@ -194,7 +194,7 @@ public static class SceneValidator
         for (int i = 0; i < usable.Length; i++)
         {
             cancellation.ThrowIfCancellationRequested();
-            usable[i] = BufferRules.Check(document.Buffers[i], new Place(findings, "buffers", i));
+            usable[i] = BufferRules.Check(document.Buffers[i], new Place(findings, "buffers", i), cancellation);
         }
 
         for (int i = 0; i < document.Meshes.Count; i++)

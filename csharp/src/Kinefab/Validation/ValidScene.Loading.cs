@@ -49,7 +49,7 @@ public sealed partial class ValidScene
     public static ValidScene Load(ReadOnlyMemory<byte> json, Func<string, ReadOnlyMemory<byte>?>? buffers = null, SceneReadOptions? options = null, CancellationToken cancellation = default)
     {
         cancellation.ThrowIfCancellationRequested();
-        return Of(SceneFile.Parse(json.Span, buffers, options), options, cancellation);
+        return Of(SceneFile.Parse(json.Span, buffers, options, cancellation), options, cancellation);
     }
 
     private static ValidScene Of(SceneReading reading, SceneReadOptions? options, CancellationToken cancellation)

@@ -53,7 +53,7 @@ public static class SceneFile
             return new SceneReading(null, FindingPlaces.Resolve(findings, default, hasText: false));
         options.Progress?.Report(ShareOfFile);
         cancellation.ThrowIfCancellationRequested();
-        SceneReading reading = Parse(bytes, findings, options);
+        SceneReading reading = Parse(bytes, findings, options, cancellation);
         options.Progress?.Report(ShareOfText);
         if (reading.Document is { Buffers.Count: > 0 } document)
             BufferFiles.Attach(document, Path.GetDirectoryName(Path.GetFullPath(path))!, cancellation);
@@ -83,7 +83,7 @@ public static class SceneFile
 
         options.Progress?.Report(ShareOfFile);
         cancellation.ThrowIfCancellationRequested();
-        SceneReading reading = Parse(bytes, buffers, options);
+        SceneReading reading = Parse(bytes, buffers, options, cancellation);
         options.Progress?.Report(ShareOfBuffers);
         return reading;
     }
@@ -109,10 +109,13 @@ public static class SceneFile
     /// <param name="json">The text, UTF-8.</param>
     /// <param name="buffers">Gives the bytes of a buffer by its uri, or null when there are none; null: there are no buffers.</param>
     /// <param name="options">Null: the default ones.</param>
+    /// <param name="cancellation">Ends the reading early.</param>
+    /// <exception cref="OperationCanceledException">It was cancelled.</exception>
     public static SceneReading Parse(
         byte[] json,
         Func<string, ReadOnlyMemory<byte>?>? buffers = null,
-        SceneReadOptions? options = null)
+        SceneReadOptions? options = null,
+        CancellationToken cancellation = default)
     {
         if (json is null)
             throw new ArgumentNullException(nameof(json));
@@ -124,7 +127,7 @@ public static class SceneFile
             return new SceneReading(null, FindingPlaces.Resolve(findings, default, hasText: false));
         }
 
-        SceneReading reading = Parse(json, findings, options);
+        SceneReading reading = Parse(json, findings, options, cancellation);
         if (buffers is not null && reading.Document is not null)
         {
             foreach (SceneBuffer buffer in reading.Document.Buffers)
@@ -138,16 +141,19 @@ public static class SceneFile
     /// <param name="json">The text, UTF-8.</param>
     /// <param name="buffers">Gives the bytes of a buffer by its uri, or null when there are none; null: there are no buffers.</param>
     /// <param name="options">Null: the default ones.</param>
+    /// <param name="cancellation">Ends the reading early.</param>
+    /// <exception cref="OperationCanceledException">It was cancelled.</exception>
     public static SceneReading Parse(
         ReadOnlySpan<byte> json,
         Func<string, ReadOnlyMemory<byte>?>? buffers = null,
-        SceneReadOptions? options = null) => Parse(json.ToArray(), buffers, options);
+        SceneReadOptions? options = null,
+        CancellationToken cancellation = default) => Parse(json.ToArray(), buffers, options, cancellation);
 
     /// <summary>Reads a text that the document keeps.</summary>
-    private static SceneReading Parse(byte[] json, Findings findings, SceneReadOptions options)
+    private static SceneReading Parse(byte[] json, Findings findings, SceneReadOptions options, CancellationToken cancellation)
     {
         ReadOnlyMemory<byte> text = JsonText.WithoutMark(json);
-        SceneDocument? document = Read(text.Span, findings, options);
+        SceneDocument? document = Read(text.Span, findings, options, cancellation);
         Report report = FindingPlaces.Resolve(findings, text.Span, hasText: true);
         if (findings.Errors > 0 || document is null)
             return new SceneReading(null, report);
@@ -155,13 +161,14 @@ public static class SceneFile
         return new SceneReading(document, report);
     }
 
-    private static SceneDocument? Read(ReadOnlySpan<byte> text, Findings findings, SceneReadOptions options)
+    private static SceneDocument? Read(ReadOnlySpan<byte> text, Findings findings, SceneReadOptions options, CancellationToken cancellation)
     {
         if (!JsonText.Check(text, findings))
             return null;
         try
         {
-            var cursor = new JsonCursor(text, findings, options.Limits.MaxItems, options.Limits.MaxDepth, options.Strict);
+            var progress = new ReadingProgress(options.Progress, ShareOfFile, ShareOfText, cancellation);
+            var cursor = new JsonCursor(text, findings, options.Limits.MaxItems, options.Limits.MaxDepth, options.Strict, progress);
             var document = new SceneDocument(ref cursor);
             cursor.End();
             return document;

@@ -1,7 +1,9 @@
 using System;
+using System.Buffers;
 using System.Globalization;
 using System.Runtime.InteropServices;
 using System.Security.Cryptography;
+using System.Threading;
 using Kinefab.Diagnostics;
 using Kinefab.Document;
 using Kinefab.Json;
@@ -11,8 +13,11 @@ namespace Kinefab.Validation;
 /// <summary>Buffers: that they are the ones the scene was written with, and hold what meshes say they hold.</summary>
 internal static class BufferRules
 {
+    // Bytes hashed between two looks for a cancellation.
+    private const int MostAtOnce = 1 << 20;
+
     /// <summary>Whether a buffer can be used at all.</summary>
-    internal static bool Check(SceneBuffer buffer, in Place at)
+    internal static bool Check(SceneBuffer buffer, in Place at, CancellationToken cancellation)
     {
         NumberRules.AtLeast(at, "byteLength", buffer.ByteLength, 0);
         bool named = Sha256(buffer.Sha256, "sha256", at);
@@ -22,7 +27,7 @@ internal static class BufferRules
             return false;
         }
 
-        return Present(buffer, at) && named && SameBytes(buffer, at);
+        return Present(buffer, at) && named && SameBytes(buffer, at, cancellation);
     }
 
     /// <summary>64 lower-case hexadecimal digits.</summary>
@@ -101,15 +106,23 @@ internal static class BufferRules
         return false;
     }
 
-    private static bool SameBytes(SceneBuffer buffer, in Place at)
+    private static bool SameBytes(SceneBuffer buffer, in Place at, CancellationToken cancellation)
     {
-        Span<byte> hash = stackalloc byte[32];
-#if NET5_0_OR_GREATER
-        SHA256.HashData(buffer.Data!.Value.Span, hash);
-#else
-        using (SHA256 algorithm = SHA256.Create())
-            algorithm.TryComputeHash(buffer.Data!.Value.Span, hash, out _);
-#endif
+        using var algorithm = IncrementalHash.CreateHash(HashAlgorithmName.SHA256);
+
+        // netstandard2.1 hashes arrays alone.
+        byte[] part = ArrayPool<byte>.Shared.Rent(MostAtOnce);
+        for (ReadOnlySpan<byte> rest = buffer.Data!.Value.Span; rest.Length > 0;)
+        {
+            cancellation.ThrowIfCancellationRequested();
+            int length = Math.Min(rest.Length, part.Length);
+            rest.Slice(0, length).CopyTo(part);
+            algorithm.AppendData(part, 0, length);
+            rest = rest.Slice(length);
+        }
+
+        ArrayPool<byte>.Shared.Return(part);
+        byte[] hash = algorithm.GetHashAndReset();
         for (int i = 0; i < hash.Length; i++)
         {
             if (hash[i] == Hex(buffer.Sha256[2 * i]) * 16 + Hex(buffer.Sha256[2 * i + 1]))

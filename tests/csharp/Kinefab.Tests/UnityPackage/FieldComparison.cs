@@ -8,7 +8,7 @@ using Kinefab.Validation;
 using NUnit.Framework;
 using Unity = UnityEngine;
 
-namespace Kinefab.Tests.Examples;
+namespace Kinefab.Tests.UnityPackage;
 
 /// <summary>Holds each field of the format against Unity's member of that name; a field without one is a fault.</summary>
 internal sealed class FieldComparison

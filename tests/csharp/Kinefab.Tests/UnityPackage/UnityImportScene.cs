@@ -3,7 +3,7 @@ using Kinefab.Numerics;
 using Kinefab.Tests.Dynamics;
 using Kinefab.Validation;
 
-namespace Kinefab.Tests.Examples;
+namespace Kinefab.Tests.UnityPackage;
 
 /// <summary>A scene whose bodies, joints and colliders stand nowhere at a default of the format.</summary>
 internal static class UnityImportScene

@@ -10,10 +10,10 @@ using KinefabUnity;
 using NUnit.Framework;
 using Unity = UnityEngine;
 
-namespace Kinefab.Tests.Examples;
+namespace Kinefab.Tests.UnityPackage;
 
 /// <summary>
-/// The example importer of csharp/examples/UnityImport, against stand-ins that hold Unity's members and refuse or lose what Unity
+/// What the Unity package makes of a scene, against stand-ins that hold Unity's members and refuse or lose what Unity
 /// does when it is set in the wrong order.
 /// </summary>
 [NonParallelizable]
@@ -44,7 +44,7 @@ public sealed class UnityImportTests
     public void Import_Meshes_AreThoseOfTheBufferAndMaterialsAreShared(string path)
     {
         ValidScene scene = ValidScene.Load(Path.Combine(Fixtures, "..", path));
-        Unity.GameObject[] objects = KinefabImporter.Import(scene);
+        Unity.GameObject[] objects = SceneObjects.Import(scene);
         int shown = 0;
         for (int i = 0; i < objects.Length; i++)
         {
@@ -74,7 +74,7 @@ public sealed class UnityImportTests
         int at = Enumerable.Range(0, scene.Document.GameObjects.Count).First(i => scene.Document.GameObjects[i].Components.OfType<MeshRenderer>().Any(r => r.Materials.Count > 0));
         Material from = scene.Document.Materials[scene.Document.GameObjects[at].Components.OfType<MeshRenderer>().Single().Materials[0]];
 
-        Unity.Material to = KinefabImporter.Import(scene)[at].GetComponent<Unity.MeshRenderer>().sharedMaterials[0];
+        Unity.Material to = SceneObjects.Import(scene)[at].GetComponent<Unity.MeshRenderer>().sharedMaterials[0];
 
         // sRGB (IEC 61966-2-1).
         static double Srgb(double c) => c <= 0.0031308 ? 12.92 * c : 1.055 * Math.Pow(c, 1 / 2.4) - 0.055;
@@ -86,7 +86,7 @@ public sealed class UnityImportTests
     public void Import_UnderAParent_HangsTheRootsThere()
     {
         var parent = new Unity.GameObject("parent");
-        Unity.GameObject[] objects = KinefabImporter.Import(ValidScene.Load(Path.Combine(Fixtures, "lever", "lever.kinefab")), parent: parent.transform);
+        Unity.GameObject[] objects = SceneObjects.Import(ValidScene.Load(Path.Combine(Fixtures, "lever", "lever.kinefab")), parent: parent.transform);
         Assert.That(objects[0].transform.parent, Is.SameAs(parent.transform));
     }
 
@@ -95,14 +95,14 @@ public sealed class UnityImportTests
     {
         string path = Directory.GetFiles(Path.Combine(ConformanceCases.Folder, "valid", "coupling"), "*.kinefab")[0];
         Unity.Debug.Warnings.Clear();
-        KinefabImporter.Import(ValidScene.Load(path));
+        SceneObjects.Import(ValidScene.Load(path));
         Assert.That(Unity.Debug.Warnings.Single(), Does.Contain("couplings (gears, belts, racks, screws) have no component in Unity"));
     }
 
     [Test]
     public void ApplyProjectSettings_Scene_SetsTheProject()
     {
-        KinefabImporter.ApplyProjectSettings(UnityImportScene.EveryField());
+        SceneObjects.ApplyProjectSettings(UnityImportScene.EveryField());
         Unity.Vector3 gravity = Unity.Physics.gravity;
         Assert.That((gravity.x, gravity.y, gravity.z), Is.EqualTo((0.5f, -1.62f, 0.25f)));
         Assert.That((Unity.Physics.bounceThreshold, Unity.Physics.defaultMaxAngularSpeed, Unity.Time.fixedDeltaTime), Is.EqualTo((3f, 9f, 0.01f)));
@@ -111,7 +111,7 @@ public sealed class UnityImportTests
 
     private static void Compare(ValidScene scene, FieldComparison comparison)
     {
-        Unity.GameObject[] objects = KinefabImporter.Import(scene);
+        Unity.GameObject[] objects = SceneObjects.Import(scene);
         comparison.Begin(scene, objects);
         Assert.That(objects, Has.Length.EqualTo(scene.Document.GameObjects.Count));
         for (int i = 0; i < objects.Length; i++)

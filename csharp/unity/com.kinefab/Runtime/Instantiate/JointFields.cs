@@ -7,7 +7,7 @@ namespace KinefabUnity
     /// Sets every field of Unity's joints. The bodies stand at the exported pose while this runs: Unity measures all angles and
     /// ways from the pose at which the joint is made.
     /// </summary>
-    internal static class KinefabJoints
+    internal static class JointFields
     {
         internal static void Set(HingeJoint to, Doc.HingeJoint from, GameObject[] objects)
         {
@@ -53,7 +53,7 @@ namespace KinefabUnity
             to.configuredInWorldSpace = from.ConfiguredInWorldSpace;
             to.swapBodies = from.SwapBodies;
             SetAnchored(to, from, objects);
-            to.secondaryAxis = KinefabImporter.Vector(from.SecondaryAxis);
+            to.secondaryAxis = SceneObjects.Vector(from.SecondaryAxis);
             to.xMotion = (ConfigurableJointMotion)from.XMotion;
             to.yMotion = (ConfigurableJointMotion)from.YMotion;
             to.zMotion = (ConfigurableJointMotion)from.ZMotion;
@@ -68,13 +68,13 @@ namespace KinefabUnity
             to.angularYZLimitSpring = Spring(from.AngularYZLimitSpring);
             to.angularYLimit = Limit(from.AngularYLimit);
             to.angularZLimit = Limit(from.AngularZLimit);
-            to.targetPosition = KinefabImporter.Vector(from.TargetPosition);
-            to.targetVelocity = KinefabImporter.Vector(from.TargetVelocity);
+            to.targetPosition = SceneObjects.Vector(from.TargetPosition);
+            to.targetVelocity = SceneObjects.Vector(from.TargetVelocity);
             to.xDrive = Drive(from.XDrive, to);
             to.yDrive = Drive(from.YDrive, to);
             to.zDrive = Drive(from.ZDrive, to);
-            to.targetRotation = KinefabImporter.Rotation(from.TargetRotation);
-            to.targetAngularVelocity = KinefabImporter.Vector(from.TargetAngularVelocity);
+            to.targetRotation = SceneObjects.Rotation(from.TargetRotation);
+            to.targetAngularVelocity = SceneObjects.Vector(from.TargetAngularVelocity);
             to.rotationDriveMode = (RotationDriveMode)from.RotationDriveMode;
             to.angularXDrive = Drive(from.AngularXDrive, to);
             to.angularYZDrive = Drive(from.AngularYZDrive, to);
@@ -97,9 +97,9 @@ namespace KinefabUnity
             // set, and the file's own would be lost. Where the file has it on, it comes on last, and Unity works out the same.
             to.autoConfigureConnectedAnchor = false;
             Connect(to, from, objects);
-            to.anchor = KinefabImporter.Vector(from.Anchor);
-            to.axis = KinefabImporter.Vector(from.Axis);
-            to.connectedAnchor = KinefabImporter.Vector(from.ConnectedAnchor);
+            to.anchor = SceneObjects.Vector(from.Anchor);
+            to.axis = SceneObjects.Vector(from.Axis);
+            to.connectedAnchor = SceneObjects.Vector(from.ConnectedAnchor);
             to.autoConfigureConnectedAnchor = from.AutoConfigureConnectedAnchor;
             SetCommon(to, from);
         }
@@ -137,7 +137,7 @@ namespace KinefabUnity
             {
                 positionSpring = (float)from.PositionSpring,
                 positionDamper = (float)from.PositionDamper,
-                maximumForce = KinefabImporter.Force(from.MaximumForce),
+                maximumForce = SceneObjects.Force(from.MaximumForce),
             };
 #if UNITY_2022_2_OR_NEWER
             drive.useAcceleration = from.UseAcceleration;

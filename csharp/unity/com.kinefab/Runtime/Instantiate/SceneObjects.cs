@@ -14,7 +14,7 @@ namespace KinefabUnity
     /// Call it when the game starts. Unity stores neither solver iterations nor largest speeds in scenes and prefabs, before
     /// 2022.2 neither centres of mass nor inertias, and a joint's zero is the pose at which the joint is made.
     /// </remarks>
-    public static class KinefabImporter
+    internal static class SceneObjects
     {
         // As Unity's Inspector has it: PhysX refuses a drive whose largest force is infinite.
         private const float Unlimited = 3.4028233e38f;
@@ -143,13 +143,13 @@ namespace KinefabUnity
             switch (component)
             {
                 case Doc.HingeJoint hinge:
-                    KinefabJoints.Set(to.AddComponent<HingeJoint>(), hinge, objects);
+                    JointFields.Set(to.AddComponent<HingeJoint>(), hinge, objects);
                     break;
                 case Doc.ConfigurableJoint configurable:
-                    KinefabJoints.Set(to.AddComponent<ConfigurableJoint>(), configurable, objects);
+                    JointFields.Set(to.AddComponent<ConfigurableJoint>(), configurable, objects);
                     break;
                 case Doc.FixedJoint rigid:
-                    KinefabJoints.Set(to.AddComponent<FixedJoint>(), rigid, objects);
+                    JointFields.Set(to.AddComponent<FixedJoint>(), rigid, objects);
                     break;
                 case Doc.BoxCollider box:
                     Set(to.AddComponent<BoxCollider>(), box);

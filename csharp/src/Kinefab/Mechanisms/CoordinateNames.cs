@@ -43,11 +43,11 @@ internal sealed class CoordinateNames
         _coordinates = coordinates;
         _names = new SceneNames(objects, coordinates.Select(Place));
         _moving = Enumerable.Range(0, coordinates.Length).Where(i => !coordinates[i].IsLocked).ToArray();
-        var freedoms = new Dictionary<int, int>();
+        var freedoms = new Dictionary<(int GameObject, int Component), int>();
         foreach (CoordinatePlace coordinate in coordinates)
         {
-            freedoms.TryGetValue(coordinate.GameObject, out int count);
-            freedoms[coordinate.GameObject] = count + (coordinate.IsLocked ? 0 : 1);
+            freedoms.TryGetValue((coordinate.GameObject, coordinate.Component), out int count);
+            freedoms[(coordinate.GameObject, coordinate.Component)] = count + (coordinate.IsLocked ? 0 : 1);
         }
 
         _full = new string[coordinates.Length];
@@ -57,7 +57,7 @@ internal sealed class CoordinateNames
             string joint = _names.Joint(coordinate.GameObject, coordinate.Component);
             _full[i] = $"{joint}.{Words[(int)coordinate.Coordinate]}";
             _found.TryAdd(_full[i], i);
-            if (!coordinate.IsLocked && freedoms[coordinate.GameObject] == 1)
+            if (!coordinate.IsLocked && freedoms[(coordinate.GameObject, coordinate.Component)] == 1)
             {
                 _found.TryAdd(joint, i);
             }

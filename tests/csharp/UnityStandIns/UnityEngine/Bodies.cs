@@ -34,6 +34,25 @@ namespace UnityEngine
 
     public sealed class Rigidbody : Component
     {
+        /// <summary>Where the next step takes the body when it is kinematic; null: it stays.</summary>
+        internal (Vector3 Position, Quaternion Rotation)? Sent;
+
+        internal int Woken;
+
+        public void MovePosition(Vector3 position) => Sent = (position, Sent?.Rotation ?? transform.rotation);
+
+        public void MoveRotation(Quaternion rot) => Sent = (Sent?.Position ?? transform.position, rot);
+
+        public void WakeUp() => Woken++;
+
+        public Vector3 angularVelocity { get; set; }
+
+#if UNITY_6000_0_OR_NEWER
+        public Vector3 linearVelocity { get; set; }
+#else
+        public Vector3 velocity { get; set; }
+#endif
+
         public float mass { get; set; } = 1;
 
 #if UNITY_6000_0_OR_NEWER

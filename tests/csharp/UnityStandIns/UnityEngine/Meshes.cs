@@ -47,6 +47,20 @@ namespace UnityEngine
 
         public int[] GetTriangles(int submesh) => _submeshes[submesh];
 
+        public bool isReadable { get; internal set; } = true;
+
+        public void GetVertices(List<Vector3> vertices)
+        {
+            vertices.Clear();
+            vertices.AddRange(this.vertices);
+        }
+
+        public void GetTriangles(List<int> triangles, int submesh)
+        {
+            triangles.Clear();
+            triangles.AddRange(_submeshes[submesh]);
+        }
+
         public void RecalculateNormals() => normals = new Vector3[vertices.Length];
     }
 
@@ -60,6 +74,28 @@ namespace UnityEngine
         public bool enabled { get; set; } = true;
 
         public Material[] sharedMaterials { get; set; } = Array.Empty<Material>();
+
+        /// <summary>Of the mesh beside it, in the world.</summary>
+        public Bounds bounds
+        {
+            get
+            {
+                Vector3[] vertices = gameObject.GetComponent<MeshFilter>()?.sharedMesh?.vertices ?? Array.Empty<Vector3>();
+                Bounds all = default;
+                for (int i = 0; i < vertices.Length; i++)
+                {
+                    Vector3 at = transform.TransformPoint(vertices[i]);
+                    if (i == 0)
+                    {
+                        all = new Bounds(at, new Vector3(0, 0, 0));
+                    }
+
+                    all.Encapsulate(at);
+                }
+
+                return all;
+            }
+        }
     }
 
     public sealed class MeshRenderer : Renderer

@@ -1,6 +1,8 @@
 using System;
 using System.Collections.Generic;
 using Kinefab.Kinematics;
+using Kinefab.Validation;
+using Doc = Kinefab.Document;
 
 namespace KinefabUnity
 {
@@ -32,46 +34,79 @@ namespace KinefabUnity
         /// <summary>For each GameObject the number of its island, by the file's analysis or else by the joints; -1: it does not move.</summary>
         public static int[] Islands(Mechanism mechanism)
         {
-            int count = mechanism.Scene.Document.GameObjects.Count;
-            var islandOf = new int[count];
+            ValidScene scene = mechanism.Scene;
+            var islandOf = new int[scene.Document.GameObjects.Count];
             Array.Fill(islandOf, -1);
             int number = 0;
-            if (mechanism.Scene.Document.Analysis is Kinefab.Document.Analysis analysis && analysis.Islands.Count > 0)
+            if (scene.Document.Analysis is Doc.Analysis analysis && analysis.Islands.Count > 0)
             {
-                foreach (Kinefab.Document.AnalysisIsland island in analysis.Islands)
+                foreach (Doc.AnalysisIsland island in analysis.Islands)
                 {
-                    Number(island.GameObjects, number++);
+                    Number(islandOf, island.GameObjects, number++);
+                }
+
+                // The analysis counts the source's bodies; those that stand between two of its joints are of their neighbours' island.
+                while (Spread(scene, islandOf))
+                {
                 }
             }
             else
             {
                 foreach (IslandMobility island in mechanism.CountMobility().Islands)
                 {
-                    Number(island.GameObjects, number++);
+                    Number(islandOf, island.GameObjects, number++);
                 }
             }
 
             // What a body carries along is of its island.
-            for (int i = 0; i < count; i++)
+            for (int i = 0; i < islandOf.Length; i++)
             {
-                if (islandOf[i] < 0 && mechanism.Scene.BodyOf(i) is int body)
+                if (islandOf[i] < 0 && scene.BodyOf(i) is int body)
                 {
                     islandOf[i] = islandOf[body];
                 }
             }
 
             return islandOf;
+        }
 
-            void Number(IReadOnlyList<int> gameObjects, int island)
+        private static void Number(int[] islandOf, IReadOnlyList<int> gameObjects, int island)
+        {
+            foreach (int gameObject in gameObjects)
             {
-                foreach (int gameObject in gameObjects)
+                if ((uint)gameObject < (uint)islandOf.Length)
                 {
-                    if ((uint)gameObject < (uint)islandOf.Length)
+                    islandOf[gameObject] = island;
+                }
+            }
+        }
+
+        private static bool Spread(ValidScene scene, int[] islandOf)
+        {
+            bool isNew = false;
+            for (int i = 0; i < islandOf.Length; i++)
+            {
+                foreach (Doc.Component component in scene.Document.GameObjects[i].Components)
+                {
+                    if (component is Doc.Joint joint && joint.ConnectedBody is int other)
                     {
-                        islandOf[gameObject] = island;
+                        isNew |= Take(scene, islandOf, i, other) | Take(scene, islandOf, other, i);
                     }
                 }
             }
+
+            return isNew;
+        }
+
+        private static bool Take(ValidScene scene, int[] islandOf, int from, int to)
+        {
+            if (islandOf[from] < 0 || islandOf[to] >= 0 || !(scene.Body(to) is Doc.Rigidbody body) || body.IsKinematic)
+            {
+                return false;
+            }
+
+            islandOf[to] = islandOf[from];
+            return true;
         }
 
         private static void SetRange(KinefabFreedom freedom, MechanismCoordinate own, RangeLimit low, RangeLimit high)

@@ -42,6 +42,14 @@ namespace KinefabUnity
             }
         }
 
+        private void Start()
+        {
+            if (Application.isPlaying && pose.Length > 0 && IsReady() && _placement.HasBodies)
+            {
+                _placement.RemakeJoints(_motion.Home);
+            }
+        }
+
         private void OnDisable()
         {
             Enabled.Remove(this);

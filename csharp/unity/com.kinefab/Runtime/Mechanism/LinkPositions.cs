@@ -27,7 +27,7 @@ namespace KinefabUnity
                 int at = coordinate.GameObject;
                 if (at < parts.Length && parts[at] != null
                     && mechanism.Scene.Document.GameObjects[at].Components[coordinate.Component] is Doc.ArticulationBody from
-                    && from.JointType != Doc.ArticulationJointType.SphericalJoint
+                    && from.JointType != Doc.ArticulationJointType.Spherical
                     && mechanism.Scene.Document.GameObjects[at].Parent is int above && mechanism.Scene.BodyOf(above) is int parent)
                 {
                     Pose joint = Frame(mechanism.Scene, parent, from.ParentAnchorPosition, from.ParentAnchorRotation).Inverse()

@@ -11,7 +11,6 @@ namespace KinefabUnity
         private readonly PositionSolver _solver;
         private readonly CoordinateTarget[] _targets;
         private readonly int[] _freedoms;
-        private readonly MechanismState _home;
         private readonly double[] _numbers;
         private readonly ulong _scene;
 
@@ -23,7 +22,7 @@ namespace KinefabUnity
             Mechanism = Mechanism.Create(scene);
             _solver = new PositionSolver(Mechanism);
             State = Mechanism.NewState();
-            _home = Mechanism.NewState();
+            Home = Mechanism.NewState();
             _freedoms = freedoms ?? Array.Empty<int>();
             _targets = new CoordinateTarget[_freedoms.Length];
             _numbers = new double[State.NumberCount];
@@ -34,6 +33,9 @@ namespace KinefabUnity
         public Mechanism Mechanism { get; }
 
         public MechanismState State { get; }
+
+        /// <summary>The exported pose.</summary>
+        public MechanismState Home { get; }
 
         /// <summary>Grows with each move.</summary>
         public int Moves { get; private set; }
@@ -90,7 +92,7 @@ namespace KinefabUnity
         /// <summary>Back to the pose in the file.</summary>
         public void GoHome()
         {
-            State.CopyFrom(_home);
+            State.CopyFrom(Home);
             Moves++;
         }
 

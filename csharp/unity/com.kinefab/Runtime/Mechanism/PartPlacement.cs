@@ -1,5 +1,6 @@
 using System;
 using System.Collections.Generic;
+using Kinefab;
 using Kinefab.Kinematics;
 using Kinefab.Numerics;
 using Kinefab.Validation;
@@ -21,6 +22,7 @@ namespace KinefabUnity
         private readonly LinkPositions _links;
         private readonly int[] _gameObjects;
         private readonly Pose[] _poses;
+        private readonly List<KinefabCoupling> _couplings = new List<KinefabCoupling>();
         private int _steppedMoves;
         private bool _hasMoved;
         private float _lastStep;
@@ -74,7 +76,7 @@ namespace KinefabUnity
                 ref Part part = ref _parts[i];
                 if (part.Transform != null && (!IsInPhysics(part) || (bodiesToo && (part.Link == null || !Application.isPlaying))))
                 {
-                    Put(part);
+                    Put(part, _motion.State);
                 }
             }
         }
@@ -105,7 +107,7 @@ namespace KinefabUnity
                 }
                 else
                 {
-                    Put(part);
+                    Put(part, _motion.State);
                 }
             }
         }
@@ -114,6 +116,7 @@ namespace KinefabUnity
         public void TakeHold()
         {
             _links.TakeHold();
+            RestCouplings();
             for (int i = 0; i < _parts.Length; i++)
             {
                 ref Part part = ref _parts[i];
@@ -135,6 +138,15 @@ namespace KinefabUnity
         public void LetGo()
         {
             _links.LetGo();
+            foreach (KinefabCoupling coupling in _couplings)
+            {
+                if (coupling != null)
+                {
+                    coupling.enabled = true;
+                }
+            }
+
+            _couplings.Clear();
             for (int i = 0; i < _parts.Length; i++)
             {
                 ref Part part = ref _parts[i];
@@ -150,6 +162,42 @@ namespace KinefabUnity
                     SetVelocity(part);
                 }
             }
+        }
+
+        /// <summary>
+        /// Makes the joints anew at the exported pose: PhysX counts a joint's angles and limits from where its body stood when the joint was
+        /// made, and a scene may have been stored with the mechanism moved. That a part that is switched off and on makes its joints anew
+        /// is what others saw in the editor, not seen here.
+        /// </summary>
+        public void RemakeJoints(MechanismState home)
+        {
+            var off = new List<GameObject>();
+            for (int i = 0; i < _parts.Length; i++)
+            {
+                Transform at = _parts[i].Transform;
+                if (at != null && at.gameObject.activeSelf && at.GetComponent<Joint>() != null)
+                {
+                    off.Add(at.gameObject);
+                }
+            }
+
+            if (off.Count == 0)
+            {
+                return;
+            }
+
+            foreach (GameObject part in off)
+            {
+                part.SetActive(false);
+            }
+
+            PutAll(home);
+            foreach (GameObject part in off)
+            {
+                part.SetActive(true);
+            }
+
+            PutAll(_motion.State);
         }
 
         /// <summary>Reads the state off the parts.</summary>
@@ -180,9 +228,33 @@ namespace KinefabUnity
         private static bool IsInPhysics(in Part part) =>
             (part.Body != null || part.Link != null) && part.Transform.gameObject.activeInHierarchy;
 
-        private void Put(in Part part)
+        // A coupling that follows would pull at what the solver holds.
+        private void RestCouplings()
         {
-            Pose pose = _motion.State.Pose(part.GameObject);
+            foreach (KinefabCoupling coupling in _root.GetComponentsInChildren<KinefabCoupling>(true))
+            {
+                if (coupling.enabled)
+                {
+                    coupling.enabled = false;
+                    _couplings.Add(coupling);
+                }
+            }
+        }
+
+        private void PutAll(MechanismState state)
+        {
+            for (int i = 0; i < _parts.Length; i++)
+            {
+                if (_parts[i].Transform != null && _parts[i].Link == null)
+                {
+                    Put(_parts[i], state);
+                }
+            }
+        }
+
+        private void Put(in Part part, MechanismState state)
+        {
+            Pose pose = state.Pose(part.GameObject);
             if (!ReferenceEquals(part.Transform.parent, part.Parent))
             {
                 part.Transform.SetPositionAndRotation(_root.TransformPoint(Vector(pose.Position)), _root.rotation * Rotation(pose.Rotation));
@@ -191,7 +263,7 @@ namespace KinefabUnity
 
             if (part.Above >= 0)
             {
-                pose = _motion.State.Pose(part.Above).Inverse() * pose;
+                pose = state.Pose(part.Above).Inverse() * pose;
                 pose = new Pose(Vector3d.Scale(part.Unscaled, pose.Position), pose.Rotation);
             }
 

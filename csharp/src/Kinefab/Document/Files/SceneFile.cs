@@ -22,6 +22,7 @@ public static class SceneFile
     /// <param name="path">A scene file, NAME.kinefab.</param>
     /// <param name="options">Null: the default ones.</param>
     /// <param name="cancellation">Ends the reading early.</param>
+    /// <returns>The document, or null where the report holds an error.</returns>
     /// <exception cref="OperationCanceledException">It was cancelled.</exception>
     public static SceneReading Load(string path, SceneReadOptions? options = null, CancellationToken cancellation = default)
     {
@@ -66,6 +67,7 @@ public static class SceneFile
     /// <param name="buffers">Gives the bytes of a buffer by its uri, or null when there are none; null: there are no buffers.</param>
     /// <param name="options">Null: the default ones.</param>
     /// <param name="cancellation">Ends the reading early.</param>
+    /// <returns>The document, or null where the report holds an error.</returns>
     /// <exception cref="IOException">The stream cannot be read.</exception>
     /// <exception cref="OperationCanceledException">It was cancelled.</exception>
     public static SceneReading Load(Stream json, Func<string, ReadOnlyMemory<byte>?>? buffers = null, SceneReadOptions? options = null, CancellationToken cancellation = default)
@@ -93,6 +95,7 @@ public static class SceneFile
     /// <param name="folder">Where the buffers lie.</param>
     /// <param name="options">Null: the default ones.</param>
     /// <param name="cancellation">Ends the reading early.</param>
+    /// <returns>The document, or null where the report holds an error.</returns>
     /// <exception cref="IOException">The stream cannot be read.</exception>
     /// <exception cref="OperationCanceledException">It was cancelled.</exception>
     public static SceneReading Load(Stream json, string folder, SceneReadOptions? options = null, CancellationToken cancellation = default)
@@ -110,6 +113,7 @@ public static class SceneFile
     /// <param name="buffers">Gives the bytes of a buffer by its uri, or null when there are none; null: there are no buffers.</param>
     /// <param name="options">Null: the default ones.</param>
     /// <param name="cancellation">Ends the reading early.</param>
+    /// <returns>The document, or null where the report holds an error.</returns>
     /// <exception cref="OperationCanceledException">It was cancelled.</exception>
     public static SceneReading Parse(
         byte[] json,
@@ -142,6 +146,7 @@ public static class SceneFile
     /// <param name="buffers">Gives the bytes of a buffer by its uri, or null when there are none; null: there are no buffers.</param>
     /// <param name="options">Null: the default ones.</param>
     /// <param name="cancellation">Ends the reading early.</param>
+    /// <returns>The document, or null where the report holds an error.</returns>
     /// <exception cref="OperationCanceledException">It was cancelled.</exception>
     public static SceneReading Parse(
         ReadOnlySpan<byte> json,

@@ -40,6 +40,7 @@ public sealed class MechanismState
 
     /// <summary>A coordinate, degrees (over any number of turns) or metres, zero at the exported pose.</summary>
     /// <param name="coordinate">Index into the mechanism's coordinates.</param>
+    /// <returns>Degrees or metres, left-handed sense.</returns>
     /// <exception cref="ArgumentOutOfRangeException">There is no such coordinate.</exception>
     public double Coordinate(int coordinate) => (uint)coordinate < (uint)Values.Length
         ? Mechanism.Coordinates[coordinate].ToExternal(Values[coordinate])
@@ -47,16 +48,19 @@ public sealed class MechanismState
 
     /// <summary>The same as <see cref="this[string]"/>.</summary>
     /// <param name="name">Such as Slide or Lever/Crank:1.angle.</param>
+    /// <returns>Degrees or metres, left-handed sense.</returns>
     /// <exception cref="ArgumentException">None answers to the name, or several do: the message says which there are.</exception>
     public double Coordinate(string name) => this[name];
 
     /// <summary>World pose of a GameObject in Unity's frame, metres.</summary>
     /// <param name="gameObject">Index of the GameObject.</param>
+    /// <returns>Unity's left-handed frame, metres.</returns>
     /// <exception cref="ArgumentOutOfRangeException">There is no such GameObject.</exception>
     public Pose Pose(int gameObject) => Mechanism.PoseOfGameObject(gameObject, Poses);
 
     /// <summary>World pose of the GameObject with an id, or with a name that no other has; Unity's frame, metres.</summary>
     /// <param name="idOrName">Such as Lever/BarC:1 or BarC:1.</param>
+    /// <returns>Unity's left-handed frame, metres.</returns>
     /// <exception cref="ArgumentException">None has it, or several have the name: the message says which there are.</exception>
     public Pose Pose(string idOrName) => Pose(Mechanism.GameObjectNamed(idOrName));
 
@@ -98,6 +102,7 @@ public sealed class MechanismState
     }
 
     /// <summary>Takes over another state of the same mechanism.</summary>
+    /// <param name="other">Left as it is.</param>
     public void CopyFrom(MechanismState other)
     {
         if (other is null)
@@ -180,6 +185,7 @@ public sealed class MechanismState
     }
 
     /// <summary>A state of its own with the same poses.</summary>
+    /// <returns>Moving it leaves this one where it is.</returns>
     public MechanismState Clone()
     {
         var copy = new MechanismState(Mechanism, Poses.Length, Values.Length);

@@ -10,6 +10,7 @@ public sealed partial class Mechanism
     /// <summary>Counts what the joints leave free, as <see cref="MobilityAnalysis.Of"/>.</summary>
     /// <param name="progress">Told the share of the loops that is done, 0 to 1; null: nobody is.</param>
     /// <param name="cancellation">Ends the analysis early.</param>
+    /// <returns>The count of the whole and of each island.</returns>
     /// <exception cref="OperationCanceledException">It was cancelled.</exception>
     /// <example><code>
     /// Assert.That(Mechanism.Load("lever.kinefab").CountMobility().Mobility, Is.EqualTo(1));

@@ -37,6 +37,7 @@ from .sources import Stage, read, read_stage
 from .sources.parts.readers import part_readers
 from .targets import check_target, known_endings, target_of, write
 from .targets.content import Content
+from .unity.back.source import WrittenScene
 from .unity.bodies.colliders import Colliders
 from .unity.joints.breaking import with_sound_breaks
 from .unity.mapping import map_scene
@@ -257,6 +258,8 @@ def _enabled(scene: Scene, report: Report) -> Scene:
 
 def _mapped(found: Analysed, options: ExportOptions, links: bool, report: Report) -> UnityScene:
     """links: whether joints make links of the bodies that they join."""
+    if isinstance(found.scene, WrittenScene) and (as_written := found.scene.as_written(links, options)):
+        return as_written
     scene, groups = with_normals(found.scene, options.smooth), found.groups
     convex = ConvexOnly.with_links(scene, groups, options.ground) if links else ConvexOnly()
     made = collision_meshes(found.scene, groups, options.colliders, options.ground, convex, report)

@@ -29,7 +29,7 @@ from ..unity.scene import ArticulationBody, BodyFreedom, Component, Coupling, Ga
 from ..unity.sums import with_one_term_each
 from .content import Content
 from .noun_entry import Noun, entry, unsaid
-from .numbers import plain_value, significant
+from .numbers import plain_value, significant, whole_numbers
 
 FORMAT_VERSION = "1.0"
 LINKS_VERSION = "1.1"
@@ -130,7 +130,7 @@ def _tail(scene: UnityScene, report: Report) -> dict[str, Any]:
         "constraints": [entry(constraint) for constraint in scene.constraints],
         "analysis": None if scene.analysis is None else _analysis(scene.analysis),
         "report": report_entries(report),
-        "extras": dict(scene.extras),
+        "extras": whole_numbers(scene.extras),
     }
     return {key: value for key, value in tail.items() if value or key == "gameObjects"}
 

@@ -6,6 +6,7 @@ import errno
 import hashlib
 import json
 import math
+import re
 from collections.abc import Generator, Mapping
 from contextlib import contextmanager
 from pathlib import Path
@@ -14,11 +15,17 @@ from typing import Any, cast
 from ...diagnostics import KinefabError, Report, diagnostic
 
 
+_HALF = re.compile(rb"\\u[dD][89a-fA-F]")
+
+
 def read_scene_file(path: Path) -> Mapping[str, Any]:
     """The JSON of a scene.  Raises KinefabError when it is missing, broken, of another major version, or when an index
     in it leads nowhere: Python would count a negative one from the list's end."""
     try:
-        content: Any = json.loads(_content(Path(path)), parse_float=_number, parse_constant=_number)
+        text = _content(Path(path))
+        content: Any = json.loads(text, parse_float=_number, parse_constant=_number)
+        if _HALF.search(text):  # half of a surrogate pair is no text
+            json.dumps(content, ensure_ascii=False).encode("utf-8")
     except FileNotFoundError:
         raise KinefabError([diagnostic("SOURCE_NOT_FOUND", path=path)]) from None
     except OSError as error:

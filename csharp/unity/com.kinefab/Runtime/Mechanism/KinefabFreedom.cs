@@ -17,6 +17,11 @@ namespace KinefabUnity
         [SerializeField] private bool isOpenAbove;
         [SerializeField] private int island;
 
+        // For Unity, which makes one before it reads the fields.
+        private KinefabFreedom()
+        {
+        }
+
         internal KinefabFreedom(string name, string fullName, int coordinate, bool isAngle, int island)
         {
             this.name = name;

@@ -167,3 +167,26 @@ namespace UnityEngine
         public static bool Button(string text, params GUILayoutOption[] options) => text == Pressed;
     }
 }
+
+namespace UnityEditor
+{
+    public class SerializedObject
+    {
+        internal SerializedObject(Object target) => Target = target;
+
+        internal Object Target { get; }
+
+        public void Update()
+        {
+        }
+
+        public bool ApplyModifiedProperties() => false;
+
+        public SerializedProperty FindProperty(string propertyPath) => new SerializedProperty { name = propertyPath };
+    }
+
+    public class SerializedProperty
+    {
+        public string name { get; internal set; }
+    }
+}

@@ -14,7 +14,7 @@ namespace UnityEditor
         public static void RecordObjects(Object[] objectsToUndo, string name) => Recorded.Add((name, objectsToUndo.ToArray()));
     }
 
-    public static partial class EditorUtility
+    public sealed partial class EditorUtility
     {
         internal static readonly HashSet<Object> Dirty = new HashSet<Object>();
 

@@ -11,7 +11,7 @@ namespace Kinefab.Document;
 /// Reads scene files (NAME.kinefab and its buffers).  Faulty data gives a report, never an exception; what the numbers
 /// mean together is checked by <c>SceneValidator</c>.
 /// </summary>
-public static class SceneFile
+public static partial class SceneFile
 {
     // What takes long is the reading of files and, of large texts, the parsing.
     private const double ShareOfFile = 0.2;

@@ -6,7 +6,7 @@ namespace Kinefab.Document;
 
 /// <summary>Linear red, green, blue, alpha, each 0 to 1.</summary>
 [DebuggerDisplay("{ToString(),nq}")]
-public readonly struct Color
+public readonly record struct Color
 {
     /// <summary>From components.</summary>
     /// <param name="r">Red, 0 to 1, linear.</param>

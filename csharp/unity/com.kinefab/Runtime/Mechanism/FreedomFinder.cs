@@ -14,18 +14,35 @@ namespace KinefabUnity
         private const double LengthsLooked = 100;
         private const double LengthsShown = 2;
 
+        // Freedoms times bodies up to which ranges are looked for, some seconds at most; beyond it they are the joints' own limits.
+        private const int MostSearched = 20000;
+
         public static KinefabFreedom[] Find(Mechanism mechanism, int[] islandOf)
         {
             IReadOnlyList<int> chosen = mechanism.ChooseFreedoms();
             var found = new KinefabFreedom[chosen.Count];
             var sweep = new Sweep(new PositionSolver(mechanism));
             MechanismState home = mechanism.NewState();
+            bool searches = (long)chosen.Count * mechanism.Bodies.Count <= MostSearched;
             for (int i = 0; i < found.Length; i++)
             {
                 MechanismCoordinate own = mechanism.Coordinates[chosen[i]];
                 found[i] = new KinefabFreedom(own.ShortName, own.Name, chosen[i], own.IsAngle, islandOf[own.GameObject]);
-                (RangeLimit low, RangeLimit high) = sweep.Range(home, chosen[i]);
-                SetRange(found[i], own, low, high);
+                if (searches)
+                {
+                    (RangeLimit low, RangeLimit high) = sweep.Range(home, chosen[i]);
+                    SetRange(found[i], own, low.Value, low.End == RangeEnd.Open, high.Value, high.End == RangeEnd.Open);
+                    continue;
+                }
+
+                foreach (JointFreedom freedom in mechanism.Scene.Freedoms(own.GameObject, own.Component))
+                {
+                    if (freedom.Coordinate == own.Coordinate)
+                    {
+                        bool isOpen = double.IsInfinity(freedom.Lower) || double.IsInfinity(freedom.Upper);
+                        SetRange(found[i], own, isOpen ? -LengthsLooked : freedom.Lower, isOpen, isOpen ? LengthsLooked : freedom.Upper, isOpen);
+                    }
+                }
             }
 
             return found;
@@ -109,10 +126,8 @@ namespace KinefabUnity
             return true;
         }
 
-        private static void SetRange(KinefabFreedom freedom, MechanismCoordinate own, RangeLimit low, RangeLimit high)
+        private static void SetRange(KinefabFreedom freedom, MechanismCoordinate own, double lowest, bool openBelow, double highest, bool openAbove)
         {
-            bool openBelow = low.End == RangeEnd.Open, openAbove = high.End == RangeEnd.Open;
-            double lowest = low.Value, highest = high.Value;
             if (own.IsAngle && openBelow && openAbove)
             {
                 lowest = -HalfTurn;

@@ -187,6 +187,9 @@ namespace KinefabUnity
             }
         }
 
+        /// <summary>The object of an index of the file; null: there is none, or no more.</summary>
+        internal Transform Part(int gameObject) => (uint)gameObject < (uint)parts.Length ? parts[gameObject] : null;
+
         /// <summary>The parts that bodies move, those that are there.</summary>
         internal IEnumerable<Transform> MovingParts()
         {

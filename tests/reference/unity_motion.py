@@ -2,6 +2,7 @@
 
 ``python tests/reference/unity_motion.py`` writes ``unity_motion.json``: of each fixture the coordinate, four of its values, and by the id of each
 part with a Rigidbody its world pose at each (metres, a unit quaternion, in the file's left-handed frame). Other freedoms stand still.
+Left out are turns of joints that turn about several axes, whose single angles are counted otherwise by the two halves.
 """
 
 from __future__ import annotations
@@ -20,13 +21,21 @@ STEP = {"deg": 18.0, "m": 0.009}
 DECIMALS = 12
 
 
+def turns_about_several(mechanism: kinefab.Mechanism, freedom: kinefab.Coordinate) -> bool:
+    turns = [c for c in mechanism.coordinates if c.joint == freedom.joint and c.unit == "deg"]
+    return freedom.unit == "deg" and len(turns) > 1
+
+
 def recorded(path: Path) -> dict[str, Any] | None:
     mechanism = kinefab.motion(path)
-    if not mechanism.freedoms:
+    told = [freedom for freedom in mechanism.freedoms if not turns_about_several(mechanism, freedom)]
+    if not told:
         return None
-    driven = mechanism.coordinate(mechanism.freedoms[0].name)
+    driven = mechanism.coordinate(told[0].name)
     room = (driven.upper if np.isfinite(driven.upper) else np.inf) - driven.value
     motion = mechanism.sweep(driven.name, driven.value, driven.value + min(STEP[driven.unit], 0.9 * room), frames=FRAMES)
+    if len(motion) < FRAMES:
+        return None  # it starts at a dead point
     poses: dict[str, Any] = {}
     for entry in json.loads(path.read_text("utf-8"))["gameObjects"]:
         if any(component["type"] == "Rigidbody" for component in entry.get("components", ())):

@@ -48,9 +48,10 @@ FLOORS: dict[str, list[set[str]]] = {
         {"__init__"},
     ],
     "unity": [
-        {"frames", "scene", "definitions"},
+        {"frames", "scene", "definitions", "container"},
         {"bodies", "assets", "joints", "constraints", "mobility", "standing", "placing"},
         {"mapping", "overlaps", "sums"},
+        {"welded"},
         {"counting", "links", "back"},
         {"__init__"},
     ],

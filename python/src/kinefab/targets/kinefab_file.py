@@ -1,7 +1,7 @@
-"""Writes ``NAME.kinefab`` and its buffer so that whoever reads, and whenever the writer is killed, there is
+"""Writes ``NAME.kinefab`` and its buffer, as two files or as one, so that whoever reads, and whenever the writer is killed, there is
 either the old pair or the new one.
 
-The buffer's name holds its hash, so a new buffer never stands in an old one's place.  Both are written beside
+As two files: the buffer's name holds its hash, so a new buffer never stands in an old one's place.  Both are written beside
 their places (fsync), then the buffer is renamed, then the scene that names it, then old buffers go.
 """
 
@@ -23,6 +23,7 @@ from .. import __version__, model
 from ..diagnostics import KinefabError, Report, is_encodable
 from ..replacing import beside, one_at_a_time, remove_leftovers, replacing, sync_directory
 from ..spatial import bounds
+from ..unity.container import write_container
 from ..unity.counting import with_led_joints_on_light_bodies
 from ..unity.links.tree import articulated
 from ..unity.scene import ArticulationBody, BodyFreedom, Component, Coupling, GameObject, Joint, Mesh, Mobility, UnityScene
@@ -32,8 +33,8 @@ from .noun_entry import Noun, entry, unsaid
 from .numbers import plain_value, significant, whole_numbers
 
 FORMAT_VERSION = "1.0"
-LINKS_VERSION = "1.1"
-"""Of a scene with ArticulationBodies, which 1.0 has no word for."""
+NEWER_VERSION = "1.1"
+"""Of a scene with ArticulationBodies, which 1.0 has no word for, and of one with its buffer in one file."""
 UINT16_VERTICES = 65535
 """Most vertices that Unity's 16-bit index format counts."""
 HASH_DIGITS = 16
@@ -75,17 +76,26 @@ def write(content: Content, target: Path) -> tuple[Path, ...]:
     if unsafe := _unsafe(target.name):
         detail = f"its name {unsafe}, and the scene names its buffer after it"
         raise KinefabError([report.add("TARGET_UNWRITABLE", path=target, detail=detail)])
-    buffer_path, head = None, _head(scene)
+    binary = content.options.get("container") == "binary"
+    buffer_path, head = None, _head(scene, binary)
     with one_at_a_time(target.parent), ExitStack() as stack:
         remove_leftovers(target, "bin", "scene")
         temporary = None
         if len(scene.meshes):
             file, temporary = stack.enter_context(beside(target, "bin"))
             buffer_path, buffer, meshes = _write_buffer(scene.meshes, target, file, content.progress)
+            if binary:
+                buffer_path = None
+                del buffer["uri"]
             head |= {"buffers": [buffer], "meshes": meshes}
         with replacing(target, "scene") as file:
-            for piece in canonical_json(head | _tail(scene, report)):
-                file.write(piece.encode("utf-8"))
+            pieces = (piece.encode("utf-8") for piece in canonical_json(head | _tail(scene, report)))
+            if binary:
+                held = None if temporary is None else stack.enter_context(open(temporary, "rb"))
+                _write_in_one(target, file, pieces, held, report)
+            else:
+                for piece in pieces:
+                    file.write(piece)
             # Last, so that what fails before leaves no buffer behind.
             if buffer_path is not None and temporary is not None:
                 file.flush()
@@ -97,6 +107,16 @@ def write(content: Content, target: Path) -> tuple[Path, ...]:
     return (target,) if buffer_path is None else (target, buffer_path)
 
 
+def _write_in_one(
+    target: Path, file: BinaryIO, pieces: Iterable[bytes], buffer: BinaryIO | None, report: Report
+) -> None:
+    try:
+        write_container(file, pieces, buffer)
+    except OverflowError as error:
+        detail = str(error)
+        raise KinefabError([report.add("TARGET_UNWRITABLE", path=target, detail=detail)]) from error
+
+
 def _in_unity(content: Content) -> UnityScene:
     """In Unity's terms, as the format can say them; by links where that is asked for."""
     links = content.options.get("physics") == "articulation"
@@ -106,11 +126,11 @@ def _in_unity(content: Content) -> UnityScene:
     return articulated(scene, {joint.id: joint for joint in content.scene.joints}, content.report)
 
 
-def _head(scene: UnityScene) -> dict[str, Any]:
+def _head(scene: UnityScene, binary: bool = False) -> dict[str, Any]:
     """Everything before the meshes, in the file's order."""
     head: dict[str, Any] = {
         "format": "kinefab.scene",
-        "version": LINKS_VERSION if _has_links(scene) else FORMAT_VERSION,
+        "version": NEWER_VERSION if binary or _has_links(scene) else FORMAT_VERSION,
         "generator": {"name": "kinefab", "version": __version__},
     }
     return head | {key: value for key in ("source", "physics") if (value := entry(getattr(scene, key)))}

@@ -33,7 +33,7 @@ public class SceneSavingTests
         SceneFile.Save(SceneFile.Load(source).Document!, copy);
         Assert.That(File.ReadAllText(copy), Is.EqualTo(File.ReadAllText(source)));
         foreach (SceneBuffer buffer in SceneFile.Load(copy).Document!.Buffers)
-            Assert.That(File.ReadAllBytes(folder.Of(buffer.Uri)), Is.EqualTo(File.ReadAllBytes(Path.Combine(Path.GetDirectoryName(source)!, buffer.Uri))));
+            Assert.That(File.ReadAllBytes(folder.Of(buffer.Uri!)), Is.EqualTo(File.ReadAllBytes(Path.Combine(Path.GetDirectoryName(source)!, buffer.Uri!))));
     }
 
     [TestCaseSource(nameof(Valid))]
@@ -45,6 +45,61 @@ public class SceneSavingTests
         Assert.That(Text(again.Document!), Is.EqualTo(Text(document)));
         Assert.That(Bytes(again.Document!), Is.EqualTo(Bytes(document)));
     }
+
+    [TestCaseSource(nameof(Exported))]
+    public void Save_AsOneFile_IsReadAsTheSame(string scene)
+    {
+        using var folder = new Folder();
+        SceneDocument document = SceneFile.Load(Path.Combine(Repository, scene)).Document!;
+        string path = folder.Of(Path.GetFileName(scene));
+        SceneFile.Save(document with { Container = SceneContainer.Binary }, path);
+        Assert.That(Directory.GetFiles(folder.Path), Is.EqualTo([path]));
+        ValidScene one = ValidScene.Load(path);
+        Assert.That(one.Report.Diagnostics.Where(finding => finding.Severity != Kinefab.Diagnostics.Severity.Info), Is.Empty);
+        Assert.That(one.Document.Container, Is.EqualTo(SceneContainer.Binary));
+        Assert.That(one.Document.Buffers.Select(buffer => buffer.Data!.Value.ToArray()), Is.EqualTo(document.Buffers.Select(buffer => buffer.Data!.Value.ToArray())));
+
+        // And back again, in place of the one file.
+        SceneFile.Save(one.Document with { Container = SceneContainer.Text, Version = document.Version }, path);
+        Assert.That(File.ReadAllText(path), Is.EqualTo(File.ReadAllText(Path.Combine(Repository, scene))));
+    }
+
+    [Test]
+    public void Save_AsOneFile_IsBytesAsTheFormatSays()
+    {
+        var scene = new SceneDocument { Container = SceneContainer.Binary, Buffers = [new SceneBuffer { Data = new byte[] { 1, 2, 3, 4, 5 } }] };
+        byte[] bytes = Bytes(scene);
+        string text = Encoding.UTF8.GetString(Bytes(scene with { Container = SceneContainer.Text, Buffers = [], Version = "1.1" })).Replace(
+            "  \"gameObjects\"", "  \"buffers\": [\n    {\"byteLength\": 5, \"sha256\": \"74f81fe167d99b4cb41d6d0ccda82278caee9f3e2f25d5e5a3936ff3dcec60d0\"}\n  ],\n  \"gameObjects\"", StringComparison.Ordinal);
+        while (text.Length % 4 != 0)
+            text += " ";
+        using var expected = new MemoryStream();
+        using var writer = new BinaryWriter(expected);
+        writer.Write("KFAB"u8);
+        writer.Write(1);
+        writer.Write(12 + 8 + text.Length + 8 + 8);
+        writer.Write(text.Length);
+        writer.Write("JSON"u8);
+        writer.Write(Encoding.UTF8.GetBytes(text));
+        writer.Write(8);
+        writer.Write("BIN\0"u8);
+        writer.Write(new byte[] { 1, 2, 3, 4, 5, 0, 0, 0 });
+        Assert.That(Encoding.Latin1.GetString(bytes), Is.EqualTo(Encoding.Latin1.GetString(expected.ToArray())));
+    }
+
+    [Test]
+    public void Save_SeveralBuffersAsOneFile_LeavesTheOthersBeside()
+    {
+        using var folder = new Folder();
+        string path = folder.Of("a.kinefab");
+        SceneFile.Save(new SceneDocument { Container = SceneContainer.Binary, Buffers = [new SceneBuffer { Data = new byte[4] }, new SceneBuffer { Data = new byte[8] }] }, path);
+        Assert.That(Directory.GetFiles(folder.Path), Has.Length.EqualTo(2));
+        Assert.That(ValidScene.Load(path).Document.Buffers.Select(buffer => buffer.Data!.Value.Length), Is.EqualTo([4, 8]));
+    }
+
+    [Test]
+    public void Save_ABufferWithoutNameAsTextToAStream_Throws() =>
+        Assert.That(() => Bytes(new SceneDocument { Buffers = [new SceneBuffer { Data = new byte[4] }] }), Throws.ArgumentException);
 
     [TestCase(0.1, "0.1")]
     [TestCase(-0.0, "0")]
@@ -78,7 +133,7 @@ public class SceneSavingTests
     public void Save_Extras_AreKeptInOneLine()
     {
         var scene = new SceneDocument { ExtrasJson = "{\"a\" :[1.50 ,{ }],\n \"b\\u00e4\": \"\\u0041\\n\", \"a\": null}" };
-        Assert.That(Encoding.UTF8.GetString(Bytes(scene)), Does.EndWith("  \"extras\": {\"a\": [1.50, {}], \"bä\": \"A\\n\", \"a\": null}\n}\n"));
+        Assert.That(Encoding.UTF8.GetString(Bytes(scene)), Does.EndWith("  \"extras\": {\"a\": [1.5, {}], \"bä\": \"A\\n\", \"a\": null}\n}\n"));
     }
 
     [Test]

@@ -1,9 +1,7 @@
 using System;
 using System.Collections.Generic;
-using System.Globalization;
 using System.IO;
 using System.Linq;
-using System.Security.Cryptography;
 using System.Text.RegularExpressions;
 
 namespace Kinefab.Document;
@@ -14,17 +12,17 @@ internal static class SavedBuffers
     // Hexadecimal digits of the hash in a file's name.
     private const int Digits = 16;
 
-    /// <summary>The buffers as a scene of this file name holds them; those without data stay as they are, and what is stated of the others' size and hash is kept.</summary>
+    /// <summary>The buffers as a scene of this file name holds them; those without data stay as they are.</summary>
     internal static IReadOnlyList<SceneBuffer> Named(IReadOnlyList<SceneBuffer> buffers, string name) =>
-        buffers.Select(buffer => buffer.Data is ReadOnlyMemory<byte> data ? Stated(buffer, data, name) : buffer).ToArray();
+        buffers.Select(buffer => buffer.Data is null ? buffer : Named(buffer.Stated(), name)).ToArray();
 
     /// <summary>Writes each that is not there yet.</summary>
     internal static void Write(IEnumerable<SceneBuffer> buffers, string folder)
     {
         foreach (SceneBuffer buffer in buffers)
         {
-            if (buffer.Data is ReadOnlyMemory<byte> data)
-                WholeFile.Write(Path.Combine(folder, buffer.Uri), file => file.Write(data.Span));
+            if (buffer is { Data: { } data, Uri: string uri })
+                WholeFile.Write(Path.Combine(folder, uri), file => file.Write(data.Span));
         }
     }
 
@@ -40,22 +38,5 @@ internal static class SavedBuffers
         }
     }
 
-    private static SceneBuffer Stated(SceneBuffer buffer, ReadOnlyMemory<byte> data, string name)
-    {
-        string hash = buffer.Sha256.Length > 0 ? buffer.Sha256 : Sha256(data.Span);
-        return buffer with
-        {
-            Uri = $"{name}.{hash.Substring(0, Math.Min(Digits, hash.Length))}.bin",
-            ByteLength = data.Length,
-            Sha256 = hash,
-        };
-    }
-
-    private static string Sha256(ReadOnlySpan<byte> data)
-    {
-        Span<byte> hash = stackalloc byte[32];
-        using var sha = SHA256.Create();
-        sha.TryComputeHash(data, hash, out _);
-        return string.Concat(hash.ToArray().Select(b => b.ToString("x2", CultureInfo.InvariantCulture)));
-    }
+    private static SceneBuffer Named(SceneBuffer buffer, string name) => buffer with { Uri = $"{name}.{buffer.Sha256.Substring(0, Math.Min(Digits, buffer.Sha256.Length))}.bin" };
 }

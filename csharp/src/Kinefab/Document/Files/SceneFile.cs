@@ -8,7 +8,7 @@ using Kinefab.Reading;
 namespace Kinefab.Document;
 
 /// <summary>
-/// Reads scene files (NAME.kinefab and its buffers).  Faulty data gives a report, never an exception; what the numbers
+/// Reads scene files (NAME.kinefab and its buffers), text or binary, told apart by their first bytes.  Faulty data gives a report, never an exception; what the numbers
 /// mean together is checked by <c>SceneValidator</c>.
 /// </summary>
 public static partial class SceneFile
@@ -63,7 +63,7 @@ public static partial class SceneFile
     }
 
     /// <summary>Reads a stream from where it stands to its end; it stays open.</summary>
-    /// <param name="json">The text, UTF-8; need not be seekable.</param>
+    /// <param name="json">Text, UTF-8, or binary; need not be seekable.</param>
     /// <param name="buffers">Gives the bytes of a buffer by its uri, or null when there are none; null: there are no buffers.</param>
     /// <param name="options">Null: the default ones.</param>
     /// <param name="cancellation">Ends the reading early.</param>
@@ -91,7 +91,7 @@ public static partial class SceneFile
     }
 
     /// <summary>Reads a stream from where it stands to its end, and the buffers in a folder; the stream stays open.</summary>
-    /// <param name="json">The text, UTF-8; need not be seekable.</param>
+    /// <param name="json">Text, UTF-8, or binary; need not be seekable.</param>
     /// <param name="folder">Where the buffers lie.</param>
     /// <param name="options">Null: the default ones.</param>
     /// <param name="cancellation">Ends the reading early.</param>
@@ -109,7 +109,7 @@ public static partial class SceneFile
     }
 
     /// <summary>As the other <c>Parse</c>, without the copy: the array is kept and must not be changed any more.</summary>
-    /// <param name="json">The text, UTF-8.</param>
+    /// <param name="json">Text, UTF-8, or binary.</param>
     /// <param name="buffers">Gives the bytes of a buffer by its uri, or null when there are none; null: there are no buffers.</param>
     /// <param name="options">Null: the default ones.</param>
     /// <param name="cancellation">Ends the reading early.</param>
@@ -135,14 +135,17 @@ public static partial class SceneFile
         if (buffers is not null && reading.Document is not null)
         {
             foreach (SceneBuffer buffer in reading.Document.Buffers)
-                buffer.Attach(buffers(buffer.Uri));
+            {
+                if (buffer.Uri is string uri)
+                    buffer.Attach(buffers(uri));
+            }
         }
 
         return reading;
     }
 
-    /// <summary>Reads a text in memory; it is copied, so that later findings can give line and column.</summary>
-    /// <param name="json">The text, UTF-8.</param>
+    /// <summary>Reads a file in memory; it is copied, so that later findings can give line and column.</summary>
+    /// <param name="json">Text, UTF-8, or binary.</param>
     /// <param name="buffers">Gives the bytes of a buffer by its uri, or null when there are none; null: there are no buffers.</param>
     /// <param name="options">Null: the default ones.</param>
     /// <param name="cancellation">Ends the reading early.</param>
@@ -154,15 +157,22 @@ public static partial class SceneFile
         SceneReadOptions? options = null,
         CancellationToken cancellation = default) => Parse(json.ToArray(), buffers, options, cancellation);
 
-    /// <summary>Reads a text that the document keeps.</summary>
-    private static SceneReading Parse(byte[] json, Findings findings, SceneReadOptions options, CancellationToken cancellation)
+    /// <summary>Reads bytes that the document keeps.</summary>
+    private static SceneReading Parse(byte[] bytes, Findings findings, SceneReadOptions options, CancellationToken cancellation)
     {
-        ReadOnlyMemory<byte> text = JsonText.WithoutMark(json);
+        BinaryFile file = default;
+        bool isBinary = BinaryFile.IsOne(bytes);
+        if (isBinary && !BinaryFile.TryOpen(bytes, findings, out file))
+            return new SceneReading(null, FindingPlaces.Resolve(findings, default, hasText: false));
+        ReadOnlyMemory<byte> text = isBinary ? file.Text : JsonText.WithoutMark(bytes);
         SceneDocument? document = Read(text.Span, findings, options, cancellation);
         Report report = FindingPlaces.Resolve(findings, text.Span, hasText: true);
         if (findings.Errors > 0 || document is null)
             return new SceneReading(null, report);
+        if (isBinary)
+            document = document with { Container = SceneContainer.Binary };
         document.Text = text;
+        OwnBuffer.Attach(document, file.Buffer);
         return new SceneReading(document, report);
     }
 

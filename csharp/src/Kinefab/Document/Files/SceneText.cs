@@ -1,4 +1,5 @@
 using System;
+using System.Linq;
 using Kinefab.Json;
 
 namespace Kinefab.Document;
@@ -11,7 +12,10 @@ internal static class SceneText
     internal static ReadOnlyMemory<byte> Of(SceneDocument document)
     {
         JsonWriter json = Written(document);
-        string version = FormatVersion.AtLeast(document.Version, json.Minor);
+
+        // A buffer in the file itself is one of 1.1.
+        int least = document.Buffers.Any(buffer => buffer.Uri is null) ? Math.Max(1, json.Minor) : json.Minor;
+        string version = FormatVersion.AtLeast(document.Version, least);
         return version == document.Version ? json.Text : Written(document with { Version = version }).Text;
     }
 

@@ -1,15 +1,17 @@
 using System;
+using System.Globalization;
+using System.Linq;
+using System.Security.Cryptography;
 
 namespace Kinefab.Document;
 
-/// <summary>A file of binary data beside the scene.</summary>
+/// <summary>Binary data: a file beside the scene, or a part of the scene's own.</summary>
 public sealed partial record SceneBuffer : DocumentObject
 {
     private ReadOnlyMemory<byte>? data;
 
-    /// <summary>File name relative to the scene's folder; never absolute, never with "..".</summary>
-    [Field(Required = true)]
-    public string Uri { get; init; } = "";
+    /// <summary>File name relative to the scene's folder; never absolute, never with "..". Null: the buffer lies in the scene's own file.</summary>
+    public string? Uri { get; init; }
 
     /// <summary>Size of the file in bytes.</summary>
     [Field(Required = true)]
@@ -40,5 +42,16 @@ public sealed partial record SceneBuffer : DocumentObject
         FoundLength = foundLength;
     }
 
-    private protected override string Describe() => $"buffer {Uri} of {ByteLength} bytes{(Data is null ? ", not loaded" : "")}";
+    /// <summary>With the size of its data; what is stated as their hash is kept.</summary>
+    internal SceneBuffer Stated() => this with { ByteLength = data!.Value.Length, Sha256 = Sha256.Length > 0 ? Sha256 : Hash(data.Value.Span) };
+
+    private static string Hash(ReadOnlySpan<byte> bytes)
+    {
+        Span<byte> hash = stackalloc byte[32];
+        using var algorithm = SHA256.Create();
+        algorithm.TryComputeHash(bytes, hash, out _);
+        return string.Concat(hash.ToArray().Select(b => b.ToString("x2", CultureInfo.InvariantCulture)));
+    }
+
+    private protected override string Describe() => $"buffer {Uri ?? "in the scene's file"} of {ByteLength} bytes{(Data is null ? ", not loaded" : "")}";
 }

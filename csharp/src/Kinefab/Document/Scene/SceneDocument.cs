@@ -21,6 +21,10 @@ public sealed partial record SceneDocument : DocumentObject
     [Field(Required = true, Reader = "FormatVersion.ReadVersion")]
     public string Version { get; init; } = "1.0";
 
+    /// <summary>The kind of file that it was read from, or is to be saved as.</summary>
+    [Field(InFile = false)]
+    public SceneContainer Container { get; init; }
+
     /// <summary>The program that wrote the file; null: not stated.</summary>
     public Generator? Generator { get; init; }
 

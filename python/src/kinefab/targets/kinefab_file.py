@@ -26,15 +26,15 @@ from ..spatial import bounds
 from ..unity.container import write_container
 from ..unity.counting import with_led_joints_on_light_bodies
 from ..unity.links.tree import articulated
-from ..unity.scene import ArticulationBody, BodyFreedom, Component, Coupling, GameObject, Joint, Mesh, Mobility, UnityScene
+from ..unity.scene import BodyFreedom, Component, Coupling, GameObject, Joint, Mesh, Mobility, UnityScene
 from ..unity.sums import with_one_term_each
 from .content import Content
-from .noun_entry import Noun, entry, unsaid
+from .noun_entry import Noun, entry, needs_newer, unsaid
 from .numbers import plain_value, significant, whole_numbers
 
 FORMAT_VERSION = "1.0"
 NEWER_VERSION = "1.1"
-"""Of a scene with ArticulationBodies, which 1.0 has no word for, and of one with its buffer in one file."""
+"""Of a scene that says what 1.0 has no field for, as the schema marks it (``since``), and of one with its buffer in one file."""
 UINT16_VERTICES = 65535
 """Most vertices that Unity's 16-bit index format counts."""
 HASH_DIGITS = 16
@@ -130,14 +130,15 @@ def _head(scene: UnityScene, binary: bool = False) -> dict[str, Any]:
     """Everything before the meshes, in the file's order."""
     head: dict[str, Any] = {
         "format": "kinefab.scene",
-        "version": NEWER_VERSION if binary or _has_links(scene) else FORMAT_VERSION,
+        "version": NEWER_VERSION if binary or _is_newer(scene) else FORMAT_VERSION,
         "generator": {"name": "kinefab", "version": __version__},
     }
     return head | {key: value for key in ("source", "physics") if (value := entry(getattr(scene, key)))}
 
 
-def _has_links(scene: UnityScene) -> bool:
-    return any(isinstance(c, ArticulationBody) for entry in scene.gameObjects for c in entry.components)
+def _is_newer(scene: UnityScene) -> bool:
+    """Whether something in it format 1.0 has no word for."""
+    return any(needs_newer(entry) or any(map(needs_newer, entry.components)) for entry in scene.gameObjects)
 
 
 def _tail(scene: UnityScene, report: Report) -> dict[str, Any]:
@@ -211,7 +212,7 @@ def report_entries(report: Report) -> list[dict[str, Any]]:
 
 
 def _tell_losses(scene: UnityScene, report: Report) -> None:
-    """What the nouns hold and the format 1.0 has no field for."""
+    """What the nouns hold and the format has no field for."""
 
     def told(kind: str, name: str, noun: Noun) -> None:
         for field, usual in unsaid(type(noun)).items():
@@ -304,11 +305,14 @@ def canonical_json(content: dict[str, Any]) -> Iterator[str]:
         return texts[id(entry)]
 
     def game_object(entry: dict[str, Any]) -> str:
-        head = flat({k: v for k, v in entry.items() if k != "components"})
         if not (components := entry.get("components")):
-            return head
+            return flat({k: v for k, v in entry.items() if k != "components"})
         lines = ",\n      ".join(component(c) for c in components)
-        return f'{head[:-1]}, "components": [\n      {lines}\n    ]}}'
+        keys = list(entry)
+        place = keys.index("components")
+        head, rest = (flat({k: entry[k] for k in part}) for part in (keys[:place], keys[place + 1 :]))
+        more = f", {rest[1:-1]}" if place + 1 < len(keys) else ""
+        return f'{head[:-1]}, "components": [\n      {lines}\n    ]{more}}}'
 
     before = "{\n"
     for key, value in content.items():

@@ -39,6 +39,22 @@ def unsaid(noun: type[Noun]) -> Mapping[str, Any]:
 
 
 @cache
+def _newer(noun: type[Noun]) -> Mapping[str, Any] | None:
+    """Fields of a noun that format 1.0 lacks, each with the value that is not written; None for a noun that it lacks."""
+    definition = definition_of(noun)
+    if "since" in definitions()[definition]:
+        return None
+    keys = {rule.key for rule in properties(definition) if rule.newer}
+    return {field.name: field.default for field in fields(noun) if field.name in keys}
+
+
+def needs_newer(noun: Noun) -> bool:
+    """Whether it says what format 1.0 has no field for."""
+    found = _newer(type(noun))
+    return found is None or any(getattr(noun, name) != usual for name, usual in found.items())
+
+
+@cache
 def _said(noun: type[Noun]) -> tuple[tuple[str, Any, Property], ...]:
     """What is written of a noun, each with the noun's own default where it may be left out, in the schema's order.
 

@@ -26,12 +26,13 @@ NONE = object()
 
 @dataclass(frozen=True, slots=True)
 class Property:
-    """nested: it holds an object that may be left out when empty."""
+    """nested: it holds an object that may be left out when empty.  newer: format 1.0 has no such field."""
 
     key: str
     default: Any
     required: bool
     nested: bool
+    newer: bool = False
 
 
 @cache
@@ -56,5 +57,5 @@ def properties(definition: str) -> tuple[Property, ...]:
     for key, rule in rules["properties"].items():
         reference = rule.get("$ref", "").removeprefix("#/$defs/")
         nested = definitions().get(reference, {}).get("type") == "object"
-        found.append(Property(key, rule.get("default", NONE), key in required, nested))
+        found.append(Property(key, rule.get("default", NONE), key in required, nested, "since" in rule))
     return tuple(found)

@@ -115,10 +115,8 @@ class _Builder:
 
     def finished(self) -> list[GameObject]:
         return [
-            GameObject(
-                o.id, o.name, o.parent, o.active, o.transform, tuple(components), o.layer, o.tag, o.extras
-            )
-            for o, components in zip(self.objects, self.components)
+            replace(own, components=tuple(components))
+            for own, components in zip(self.objects, self.components)
         ]
 
     def add_ground(self) -> None:
@@ -145,7 +143,7 @@ class _Builder:
             index = self._object(
                 GameObject(
                     node.id, node.name, above, active[i], placed[i],
-                    layer=node.layer, tag=node.tag, extras=dict(node.extras),
+                    layer=node.layer, tag=node.tag, definition=node.definition or "", extras=dict(node.extras),
                 )
             )  # fmt: skip
             self.object_of.append(index)

@@ -13,4 +13,12 @@ public abstract record Collider : Component
 
     /// <summary>Collider.enabled.</summary>
     public bool Enabled { get; init; } = true;
+
+    /// <summary>The source's collision group or layer; null for none.</summary>
+    [Since(1)]
+    public string? Group { get; init; }
+
+    /// <summary>What the source calls it among the colliders of its object; null when it is not told.</summary>
+    [Since(1)]
+    public string? Id { get; init; }
 }

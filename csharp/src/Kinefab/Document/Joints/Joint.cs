@@ -10,6 +10,14 @@ public abstract record Joint : Component
     {
     }
 
+    /// <summary>Of the joint in the source: what stays when it is renamed; null when it is not told.</summary>
+    [Since(1)]
+    public string? Id { get; init; }
+
+    /// <summary>The user's own name for the joint in the source; null when it has none.</summary>
+    [Since(1)]
+    public string? Name { get; init; }
+
     /// <summary>Index of the GameObject whose Rigidbody is connected; null: the world.</summary>
     public int? ConnectedBody { get; init; }
 

@@ -34,6 +34,18 @@ public sealed partial record GameObject : DocumentObject
         init => SetComponents(value.ToArray());
     }
 
+    /// <summary>The source's word for its layer; Unity's layers are the project's. Null for none.</summary>
+    [Since(1)]
+    public string? Layer { get; init; }
+
+    /// <summary>The source's word for its tag; null for none.</summary>
+    [Since(1)]
+    public string? Tag { get; init; }
+
+    /// <summary>Of the part, shared by all its occurrences; null when it is not told.</summary>
+    [Since(1)]
+    public string? Definition { get; init; }
+
     /// <summary>The same, without the price of an interface.</summary>
     internal ReadOnlySpan<Component> ComponentSpan => components;
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
+from dataclasses import replace
 from typing import Any, cast, overload
 
 import numpy as np
@@ -119,11 +120,8 @@ def _game_object(entry: Entry, report: Report) -> GameObject:
     bare = {key: value for key, value in entry.items() if key not in ("components", "transform")}
     _tell(GameObject, bare, f"object {own}", report)
     _tell(Transform, entry.get("transform", {}), f"place of {own}", report)
-    read = noun(GameObject, bare)
     transform = noun(Transform, entry.get("transform", {}))
-    return GameObject(
-        read.id, read.name, read.parent, read.active, transform, tuple(components), read.layer, read.tag, read.extras
-    )  # fmt: skip
+    return replace(noun(GameObject, bare), transform=transform, components=tuple(components))
 
 
 def _material(entry: Entry, report: Report) -> Material:

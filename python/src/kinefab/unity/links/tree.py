@@ -51,8 +51,10 @@ Edge = tuple[int, int]
 
 
 def articulated(scene: UnityScene, joints: Mapping[str, ModelJoint], report: Report) -> UnityScene:
-    """The scene with links for Rigidbodies; its couplings are those of the links' coordinates.  joints: of the model, by id.  The report
-    gets an error for each joint that no articulation has."""
+    """The scene with links for Rigidbodies, or as it is where it has links; its couplings are those of the links' coordinates.
+    joints: of the model, by id.  The report gets an error for each joint that no articulation has."""
+    if any(isinstance(c, ArticulationBody) for entry in scene.gameObjects for c in entry.components):
+        return scene
     return _Articulation(scene, joints, report).scene_of_links()
 
 
@@ -233,7 +235,8 @@ class _Articulation:
             self._tell_range(joint)
         if moving["jointType"] != "Fixed" and (stated := self.joints.get(joint.id)) is not None:
             moving = bounded(moving, stated, self.report)
-        moving["because"], moving["extras"] = joint.because, joint.extras
+        named = {"name": joint.name} if joint.name else {}
+        moving["because"], moving["extras"] = joint.because, {**named, **joint.extras}
         tell_link_losses(joint, body, self.objects[child].id, self.report)
         return replace(link, **moving, **self._anchors(joint, edge, child, parent))
 

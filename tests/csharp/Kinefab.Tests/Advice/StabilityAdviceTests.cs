@@ -27,6 +27,25 @@ public sealed class StabilityAdviceTests
                     {"type": "ConfigurableJoint", "connectedBody": 0, "anchor": [0.243, -0.239, -0.263], "axis": [0.121, 0.91, -0.297], "yMotion": "Locked", "angularYMotion": "Locked", "angularZMotion": "Locked"}]}]}
         """;
 
+    [TestCase(false)]
+    [TestCase(true)]
+    public void HingeThatTurnsPastAHalfTurn_IsOfferedExtendedLimits(bool extended)
+    {
+        string settings = FormattableString.Invariant(
+            $$$"""{"useLimits": true, "limits": {"min": -179, "max": 179}, "extendedLimits": {{{(extended ? "true" : "false")}}}, "useMotor": true, "motor": {"targetVelocity": 720, "force": 500}}""");
+        AdviceReport advice = StabilityAdvice.Of(new AdviceScene().Hinged(1, settings).Read());
+        AdviceFinding[] motion = advice.Findings.Where(f => f.Diagnostic.Code == DiagnosticCodes.AdviceMotionDiffers).ToArray();
+        Assert.That(motion, Has.Length.EqualTo(extended ? 0 : 1));
+        Assert.That(motion.SelectMany(f => f.Tried).Count(t => t.Change.StartsWith("Use Extended Limits on HingeJoint", StringComparison.Ordinal)), Is.EqualTo(extended ? 0 : 1));
+        foreach (AdviceFinding finding in motion)
+        {
+            Assert.That(finding.Before.Angle, Is.GreaterThan(30));
+            Assert.That(finding.Best!.Change, Does.StartWith("Use Extended Limits"));
+            Assert.That(finding.Best.Score, Is.LessThan(1));
+            Assert.That(finding.Best.Work, Is.EqualTo(1));
+        }
+    }
+
     [Test]
     public void Lever_ClosedWithTheLeastRows_SagsAndIsCuredByLockingTheFreeOnes()
     {

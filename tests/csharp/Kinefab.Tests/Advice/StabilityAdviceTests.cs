@@ -31,9 +31,15 @@ public sealed class StabilityAdviceTests
     [TestCase(true)]
     public void HingeThatTurnsPastAHalfTurn_IsOfferedExtendedLimits(bool extended)
     {
-        string settings = FormattableString.Invariant(
-            $$$"""{"useLimits": true, "limits": {"min": -179, "max": 179}, "extendedLimits": {{{(extended ? "true" : "false")}}}, "useMotor": true, "motor": {"targetVelocity": 720, "force": 500}}""");
-        AdviceReport advice = StabilityAdvice.Of(new AdviceScene().Hinged(1, settings).Read());
+        // A motor turns a bar, which leans by 20 degrees, from rest into its stop.
+        AdviceReport advice = StabilityAdvice.Of(AdviceScene.Parse($$$"""
+            {"format": "kinefab.scene", "version": "1.0", "gameObjects": [
+              {"id": "Ground", "name": "Ground", "components": [{"type": "Rigidbody", "useGravity": false, "isKinematic": true}]},
+              {"id": "Bar", "name": "Bar", "transform": {"localPosition": [0, 1, 0], "localRotation": [-0.174108137594, 0, 0, 0.984726538905]}, "components": [
+                {"type": "Rigidbody", "centerOfMass": [0, 0, 0.2], "inertiaTensor": [0.01, 0.01, 0.001]},
+                {"type": "HingeJoint", "connectedBody": 0, "autoConfigureConnectedAnchor": false, "connectedAnchor": [0, 1, 0], "useLimits": true,
+                 "limits": {"min": -180, "max": 180}, "extendedLimits": {{{(extended ? "true" : "false")}}}, "useMotor": true, "motor": {"targetVelocity": 720, "force": 500}}]}]}
+            """));
         AdviceFinding[] motion = advice.Findings.Where(f => f.Diagnostic.Code == DiagnosticCodes.AdviceMotionDiffers).ToArray();
         Assert.That(motion, Has.Length.EqualTo(extended ? 0 : 1));
         Assert.That(motion.SelectMany(f => f.Tried).Count(t => t.Change.StartsWith("Use Extended Limits on HingeJoint", StringComparison.Ordinal)), Is.EqualTo(extended ? 0 : 1));

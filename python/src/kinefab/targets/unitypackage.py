@@ -15,6 +15,7 @@ from .content import Content
 from .packing import GzipStream
 from .prefab.exporting import prefab_files
 from .prefab.files import AssetFile
+from .prefab.last import last_package
 from .prefab.names import UNSEEN, file_name
 from .prefab.options import PrefabOptions
 from .prefab.text.ids import guid
@@ -33,7 +34,9 @@ def write(content: Content, target: Path) -> tuple[Path, ...]:
     if not is_encodable(target.name):
         detail = "its name is not UTF-8"
         raise KinefabError([content.report.add("TARGET_UNWRITABLE", path=target, detail=detail)])
-    files = prefab_files(content, _plain(target.name[: -len(ENDING)]), options, "Scripts")
+    name = _plain(target.name[: -len(ENDING)])
+    last = last_package(target, guid(name, "prefab"))
+    files = prefab_files(content, name, options, "Scripts", last=last)
     content.refuse_losses()
     home = guid("project folder", HOME)
     entries = [AssetFile("", home, folder_meta(home)), *files]

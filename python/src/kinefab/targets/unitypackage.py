@@ -1,6 +1,6 @@
 """``NAME.unitypackage``: the prefab and its folder in one file, which a double click imports.
 
-A tar in gzip: for each asset a folder named by its guid with ``asset``, ``asset.meta`` and ``pathname``.  Entries are sorted and
+A tar in gzip: for each asset a folder, as a member of its own, named by its guid with ``asset``, ``asset.meta`` and ``pathname``.  Entries are sorted and
 bear no time, so that the same scene gives the same bytes.
 """
 
@@ -65,6 +65,9 @@ def _add(packed: GzipStream, file: AssetFile) -> None:
     }
     if file.content is not None:
         entries = {"asset": list(file.content()), **entries}
+    folder = tarfile.TarInfo(file.guid)
+    folder.type, folder.mode = tarfile.DIRTYPE, 0o755
+    packed.write(folder.tobuf(tarfile.GNU_FORMAT))
     for name, pieces in entries.items():
         entry = tarfile.TarInfo(f"{file.guid}/{name}")
         entry.size = sum(map(len, pieces))

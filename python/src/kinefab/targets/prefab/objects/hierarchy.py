@@ -97,6 +97,7 @@ class Hierarchy:
             (o.parent + shift if o.parent is not None else 0 if self.own_root else None) for o in objects
         ]
         names = [name] * shift + [o.name for o in objects]
+        names[parents.index(None)] = name  # as an editor has it: the root is called like the file
         self._identities = [lasting(o.id, identities) for o in objects]
         ids = [ROOT] * shift + self._identities
         self.names = sibling_names(parents, names, ids)

@@ -89,7 +89,7 @@ def chosen_colliders(
     own = colliders.shape_of.get(index) if shape is ColliderShape.AUTO else None
     if own is not None and keeps_its_shape(own, body.scale) and (placed := _without_mesh(own, {})) is not None:
         told = {"body": f"{node}/{body.name}", "shape": type(placed.component).__name__}
-        report.kept(f"collider {node}/{body.name}", "", "COLLIDER_RECOGNISED", **told)
+        report.noted(f"collider {node}/{body.name}", "COLLIDER_RECOGNISED", **told)
         return [placed]
     return [PlacedCollider(component) for component in _meshes_of(colliders, shape, index, mesh, dynamic)]
 

@@ -20,7 +20,7 @@ def links() -> kinefab.Scene:
     base = scene.add_part("Stand", trimesh.creation.box((0.2, 0.2, 0.1)), grounded=True)
     turning = scene.add_part("Turning link", BAR, translation=(0.3, 0, 0))
     sliding = scene.add_part("Sliding link", BAR, translation=(-0.3, 0, 0))
-    scene.add_hinge(base, turning, point=(0.3, 0, 0), axis=(0, 0, 1), drive={"target_velocity": 90, "damping": 100})
+    scene.add_hinge(turning, base, point=(0.3, 0, 0), axis=(0, 0, 1), drive={"target_velocity": 90, "damping": 100})
     scene.add_slider(base, sliding, point=(-0.3, 0, 0), axis=(1, 0, 0), drive={"target_velocity": 0.1, "damping": 1000})
     return scene
 

@@ -13,8 +13,8 @@ from kinefab.targets.prefab.objects.couplings import FOLDER, SCRIPT
 if not (shutil.which("mcs") and shutil.which("mono")):
     pytest.skip("the Mono compiler is not installed (apt-get install mono-mcs)", allow_module_level=True)
 
-STAND_INS = Path(__file__).parents[1] / "csharp" / "UnityStandIns" / "UnityEngine"
 OWN = Path(__file__).parent / "coupling_script"
+STAND_INS = OWN / "UnityEngine"
 ELDER, NEWER = "", "UNITY_2022_2_OR_NEWER;UNITY_6000_0_OR_NEWER"
 
 

@@ -72,7 +72,7 @@ internal ref partial struct JsonCursor
             if (index >= 0 && (fields.Seen & bit) == 0)
             {
                 fields.Seen |= bit;
-                fields.Name = fields.Names[index];
+                fields.Index = index;
                 reader.Read();
                 return true;
             }

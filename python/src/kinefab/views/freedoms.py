@@ -48,7 +48,7 @@ def counted(objects: Sequence[object], joints: Sequence[object]) -> tuple[str, s
 
 def joint_name(component: Mapping[str, Any]) -> str:
     """What the user calls a joint, empty where the file does not say."""
-    name = component.get("extras", {}).get("name", "")
+    name = component.get("name") or component.get("extras", {}).get("name", "")  # so had format 1.0
     return name if isinstance(name, str) else ""
 
 

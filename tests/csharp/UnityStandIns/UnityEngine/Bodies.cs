@@ -32,8 +32,13 @@ namespace UnityEngine
         ContinuousSpeculative = 3,
     }
 
-    public sealed class Rigidbody : Component
+    public sealed partial class Rigidbody : Component
     {
+        /// <summary>Its Transform was set after the body was there: PhysX made it at another place.</summary>
+        internal bool MovedAfterMade { get; set; }
+
+        private Vector3 _inertiaTensor = new Vector3(1, 1, 1);
+
         public float mass { get; set; } = 1;
 
 #if UNITY_6000_0_OR_NEWER
@@ -54,7 +59,11 @@ namespace UnityEngine
 
         public Vector3 centerOfMass { get; set; }
 
-        public Vector3 inertiaTensor { get; set; } = new Vector3(1, 1, 1);
+        public Vector3 inertiaTensor
+        {
+            get => _inertiaTensor;
+            set => _inertiaTensor = value.x > 0 && value.y > 0 && value.z > 0 ? value : throw new ArgumentException("Unity refuses moments that are not above zero.");
+        }
 
         public Quaternion inertiaTensorRotation { get; set; } = new Quaternion(0, 0, 0, 1);
 
@@ -75,8 +84,23 @@ namespace UnityEngine
         public int solverVelocityIterations { get; set; } = 1;
     }
 
-    public static class Physics
+#if UNITY_6000_3_OR_NEWER
+    public struct IntegrationInfo
     {
+        public string name { get; internal set; }
+
+        public bool isFallback { get; internal set; }
+    }
+#endif
+
+    public static partial class Physics
+    {
+#if UNITY_6000_3_OR_NEWER
+        internal static IntegrationInfo Integration = new IntegrationInfo { name = "PhysX" };
+
+        public static IntegrationInfo GetCurrentIntegrationInfo() => Integration;
+
+#endif
         public static Vector3 gravity { get; set; } = new Vector3(0, -9.81f, 0);
 
         public static float bounceThreshold { get; set; } = 2;
@@ -88,7 +112,7 @@ namespace UnityEngine
         public static float defaultMaxAngularSpeed { get; set; } = 50;
     }
 
-    public class Collider : Component
+    public partial class Collider : Component
     {
         public bool enabled { get; set; } = true;
 
@@ -120,11 +144,23 @@ namespace UnityEngine
         public int direction { get; set; } = 1;
     }
 
+    [Flags]
+    public enum MeshColliderCookingOptions
+    {
+        None = 0,
+        CookForFasterSimulation = 2,
+        EnableMeshCleaning = 4,
+        WeldColocatedVertices = 8,
+        UseFastMidphase = 16,
+    }
+
     public sealed class MeshCollider : Collider
     {
         private bool _convex;
 
         public Mesh sharedMesh { get; set; }
+
+        public MeshColliderCookingOptions cookingOptions { get; set; } = (MeshColliderCookingOptions)30;
 
         public bool convex
         {

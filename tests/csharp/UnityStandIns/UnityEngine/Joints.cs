@@ -75,17 +75,32 @@ namespace UnityEngine
 #endif
     }
 
-    public class Joint : Component
+    public partial class Joint : Component
     {
         private Rigidbody _connectedBody;
-        private Vector3 _anchor;
+        private ArticulationBody _connectedArticulationBody;
+        private Vector3 _anchor = new Vector3(0, 0.5f, 0);
         private Vector3 _connectedAnchor;
         private bool _isConfigured = true;
 
         public Rigidbody connectedBody
         {
             get => _connectedBody;
-            set => Configure(_connectedBody = value);
+            set
+            {
+                _connectedBody = value;
+                Configure();
+            }
+        }
+
+        public ArticulationBody connectedArticulationBody
+        {
+            get => _connectedArticulationBody;
+            set
+            {
+                _connectedArticulationBody = value;
+                Configure();
+            }
         }
 
         public Vector3 axis { get; set; } = new Vector3(1, 0, 0);
@@ -93,19 +108,31 @@ namespace UnityEngine
         public Vector3 anchor
         {
             get => _anchor;
-            set => Configure(_anchor = value);
+            set
+            {
+                _anchor = value;
+                Configure();
+            }
         }
 
         public Vector3 connectedAnchor
         {
             get => _connectedAnchor;
-            set => Configure(_connectedAnchor = value);
+            set
+            {
+                _connectedAnchor = value;
+                Configure();
+            }
         }
 
         public bool autoConfigureConnectedAnchor
         {
             get => _isConfigured;
-            set => Configure(_isConfigured = value);
+            set
+            {
+                _isConfigured = value;
+                Configure();
+            }
         }
 
         public float breakForce { get; set; } = float.PositiveInfinity;
@@ -120,13 +147,19 @@ namespace UnityEngine
 
         public float connectedMassScale { get; set; } = 1;
 
-        // Unity works the anchor out where it is asked to, whatever was set before; NaN stands for its value here.
-        private void Configure<T>(T set)
+        internal void Made() => Configure();
+
+        // Unity works the anchor out where it is asked to, whatever was set before: where the own anchor stands, seen from the connected body.
+        private void Configure()
         {
-            if (_isConfigured)
+            if (!_isConfigured)
             {
-                _connectedAnchor = new Vector3(float.NaN, float.NaN, float.NaN);
+                return;
             }
+
+            Transform connected = _connectedBody != null ? _connectedBody.transform : _connectedArticulationBody != null ? _connectedArticulationBody.transform : null;
+            Vector3 own = transform.TransformPoint(_anchor);
+            _connectedAnchor = connected == null ? own : connected.InverseTransformPoint(own);
         }
     }
 

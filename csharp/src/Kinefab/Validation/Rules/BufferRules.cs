@@ -21,9 +21,9 @@ internal static class BufferRules
     {
         NumberRules.AtLeast(at, "byteLength", buffer.ByteLength, 0);
         bool named = Sha256(buffer.Sha256, "sha256", at);
-        if (!BufferUri.IsSafe(buffer.Uri))
+        if (buffer.Uri is string uri && !BufferUri.IsSafe(uri))
         {
-            at.Report("uri", DiagnosticCodes.BufferUriUnsafe, ("uri", buffer.Uri));
+            at.Report("uri", DiagnosticCodes.BufferUriUnsafe, ("uri", uri));
             return false;
         }
 
@@ -96,7 +96,7 @@ internal static class BufferRules
         long found = buffer.Data?.Length ?? buffer.FoundLength;
         if (found < 0)
         {
-            at.Report("uri", DiagnosticCodes.BufferMissing, ("uri", buffer.Uri), ("detail", buffer.Fault ?? "nobody gave its bytes"));
+            at.Report(buffer.Uri is null ? "" : "uri", DiagnosticCodes.BufferMissing, ("uri", buffer.Uri ?? "of this file"), ("detail", buffer.Fault ?? "nobody gave its bytes"));
             return false;
         }
 
@@ -127,7 +127,7 @@ internal static class BufferRules
         {
             if (hash[i] == Hex(buffer.Sha256[2 * i]) * 16 + Hex(buffer.Sha256[2 * i + 1]))
                 continue;
-            at.Report("sha256", DiagnosticCodes.BufferSha256, ("uri", buffer.Uri));
+            at.Report("sha256", DiagnosticCodes.BufferSha256, ("uri", buffer.Uri ?? "What lies in this file"));
             return false;
         }
 

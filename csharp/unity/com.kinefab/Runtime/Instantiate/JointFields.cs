@@ -1,3 +1,5 @@
+using System.Collections.Generic;
+using Kinefab.Numerics;
 using UnityEngine;
 using Doc = Kinefab.Document;
 
@@ -7,11 +9,25 @@ namespace KinefabUnity
     /// Sets every field of Unity's joints. The bodies stand at the exported pose while this runs: Unity measures all angles and
     /// ways from the pose at which the joint is made.
     /// </summary>
-    internal static class JointFields
+    internal sealed class JointFields
     {
-        internal static void Set(HingeJoint to, Doc.HingeJoint from, GameObject[] objects)
+        private readonly GameObject[] objects;
+        private readonly Placement placement;
+        private readonly List<KinefabFinding> findings;
+
+        /// <param name="objects">In the order of the file; all have their bodies.</param>
+        /// <param name="placement">Where they are made.</param>
+        /// <param name="findings">Gets what this editor has no field for.</param>
+        internal JointFields(GameObject[] objects, Placement placement, List<KinefabFinding> findings)
         {
-            SetAnchored(to, from, objects);
+            this.objects = objects;
+            this.placement = placement;
+            this.findings = findings;
+        }
+
+        internal void Set(HingeJoint to, Doc.HingeJoint from)
+        {
+            SetAnchored(to, from);
             to.spring = new JointSpring
             {
                 spring = (float)from.Spring.Spring,
@@ -33,7 +49,7 @@ namespace KinefabUnity
 #else
             if (from.ExtendedLimits || from.UseAcceleration)
             {
-                Debug.LogWarning("extendedLimits and useAcceleration of a HingeJoint need Unity 2022.2.", to);
+                TooOld("extendedLimits and useAcceleration", to);
             }
 #endif
             to.limits = new JointLimits
@@ -47,13 +63,13 @@ namespace KinefabUnity
             to.useLimits = from.UseLimits;
         }
 
-        internal static void Set(ConfigurableJoint to, Doc.ConfigurableJoint from, GameObject[] objects)
+        internal void Set(ConfigurableJoint to, Doc.ConfigurableJoint from)
         {
             // First what decides how axes and targets are read.
             to.configuredInWorldSpace = from.ConfiguredInWorldSpace;
             to.swapBodies = from.SwapBodies;
-            SetAnchored(to, from, objects);
-            to.secondaryAxis = SceneObjects.Vector(from.SecondaryAxis);
+            SetAnchored(to, from);
+            to.secondaryAxis = Direction(from.SecondaryAxis, from.ConfiguredInWorldSpace);
             to.xMotion = (ConfigurableJointMotion)from.XMotion;
             to.yMotion = (ConfigurableJointMotion)from.YMotion;
             to.zMotion = (ConfigurableJointMotion)from.ZMotion;
@@ -61,51 +77,59 @@ namespace KinefabUnity
             to.angularYMotion = (ConfigurableJointMotion)from.AngularYMotion;
             to.angularZMotion = (ConfigurableJointMotion)from.AngularZMotion;
             to.linearLimitSpring = Spring(from.LinearLimitSpring);
-            to.linearLimit = Limit(from.LinearLimit);
+            to.linearLimit = Limit(from.LinearLimit, placement.Scale);
             to.angularXLimitSpring = Spring(from.AngularXLimitSpring);
             to.lowAngularXLimit = Limit(from.LowAngularXLimit);
             to.highAngularXLimit = Limit(from.HighAngularXLimit);
             to.angularYZLimitSpring = Spring(from.AngularYZLimitSpring);
             to.angularYLimit = Limit(from.AngularYLimit);
             to.angularZLimit = Limit(from.AngularZLimit);
-            to.targetPosition = SceneObjects.Vector(from.TargetPosition);
-            to.targetVelocity = SceneObjects.Vector(from.TargetVelocity);
+            to.targetPosition = Numbers.Vector(from.TargetPosition) * placement.Scale;
+            to.targetVelocity = Numbers.Vector(from.TargetVelocity) * placement.Scale;
             to.xDrive = Drive(from.XDrive, to);
             to.yDrive = Drive(from.YDrive, to);
             to.zDrive = Drive(from.ZDrive, to);
-            to.targetRotation = SceneObjects.Rotation(from.TargetRotation);
-            to.targetAngularVelocity = SceneObjects.Vector(from.TargetAngularVelocity);
+            to.targetRotation = Numbers.Rotation(from.TargetRotation);
+            to.targetAngularVelocity = Numbers.Vector(from.TargetAngularVelocity);
             to.rotationDriveMode = (RotationDriveMode)from.RotationDriveMode;
             to.angularXDrive = Drive(from.AngularXDrive, to);
             to.angularYZDrive = Drive(from.AngularYZDrive, to);
             to.slerpDrive = Drive(from.SlerpDrive, to);
             to.projectionMode = (JointProjectionMode)from.ProjectionMode;
-            to.projectionDistance = (float)from.ProjectionDistance;
+            to.projectionDistance = (float)from.ProjectionDistance * placement.Scale;
             to.projectionAngle = (float)from.ProjectionAngle;
         }
 
         // A FixedJoint has no anchor of its own: it holds the pose at which it is made.
-        internal static void Set(FixedJoint to, Doc.FixedJoint from, GameObject[] objects)
+        internal void Set(FixedJoint to, Doc.FixedJoint from)
         {
-            Connect(to, from, objects);
+            Connect(to, from);
             SetCommon(to, from);
         }
 
-        private static void SetAnchored(Joint to, Doc.AnchoredJoint from, GameObject[] objects)
+        private void SetAnchored(Joint to, Doc.AnchoredJoint from)
         {
             // A new joint has this on, and then Unity works connectedAnchor out anew whenever the connected body or the anchor is
             // set, and the file's own would be lost. Where the file has it on, it comes on last, and Unity works out the same.
             to.autoConfigureConnectedAnchor = false;
-            Connect(to, from, objects);
-            to.anchor = SceneObjects.Vector(from.Anchor);
-            to.axis = SceneObjects.Vector(from.Axis);
-            to.connectedAnchor = SceneObjects.Vector(from.ConnectedAnchor);
+            Connect(to, from);
+            to.anchor = Numbers.Vector(from.Anchor);
+            to.axis = Direction(from.Axis, from is Doc.ConfigurableJoint joint && joint.ConfiguredInWorldSpace);
+            Vector3 connected = Numbers.Vector(from.ConnectedAnchor);
+            to.connectedAnchor = from.ConnectedBody == null ? placement.Point(connected) : connected;
             to.autoConfigureConnectedAnchor = from.AutoConfigureConnectedAnchor;
             SetCommon(to, from);
         }
 
-        private static void Connect(Joint to, Doc.Joint from, GameObject[] objects) =>
-            to.connectedBody = from.ConnectedBody is int index ? objects[index].GetComponent<Rigidbody>() : null;
+        // A joint's other side is a body or a link of an articulation.
+        private void Connect(Joint to, Doc.Joint from)
+        {
+            if (from.ConnectedBody is int index)
+            {
+                to.connectedBody = objects[index].GetComponent<Rigidbody>();
+                to.connectedArticulationBody = objects[index].GetComponent<ArticulationBody>();
+            }
+        }
 
         private static void SetCommon(Joint to, Doc.Joint from)
         {
@@ -117,11 +141,14 @@ namespace KinefabUnity
             to.connectedMassScale = (float)from.ConnectedMassScale;
         }
 
-        private static SoftJointLimit Limit(Doc.SoftJointLimit from) => new SoftJointLimit
+        private Vector3 Direction(Vector3d from, bool isOfWorld) => isOfWorld ? placement.Direction(Numbers.Vector(from)) : Numbers.Vector(from);
+
+        // lengths: of a limit in metres.
+        private static SoftJointLimit Limit(Doc.SoftJointLimit from, float lengths = 1) => new SoftJointLimit
         {
-            limit = (float)from.Limit,
+            limit = (float)from.Limit * lengths,
             bounciness = (float)from.Bounciness,
-            contactDistance = (float)from.ContactDistance,
+            contactDistance = (float)from.ContactDistance * lengths,
         };
 
         private static SoftJointLimitSpring Spring(Doc.SoftJointLimitSpring from) => new SoftJointLimitSpring
@@ -131,23 +158,28 @@ namespace KinefabUnity
         };
 
         // A JointDrive made by new has a largest force of 0, which is no drive at all, so that every field is set.
-        private static JointDrive Drive(Doc.JointDrive from, Joint joint)
+        private JointDrive Drive(Doc.JointDrive from, Joint joint)
         {
             var drive = new JointDrive
             {
                 positionSpring = (float)from.PositionSpring,
                 positionDamper = (float)from.PositionDamper,
-                maximumForce = SceneObjects.Force(from.MaximumForce),
+                maximumForce = Numbers.Force(from.MaximumForce),
             };
 #if UNITY_2022_2_OR_NEWER
             drive.useAcceleration = from.UseAcceleration;
 #else
             if (from.UseAcceleration)
             {
-                Debug.LogWarning("useAcceleration of a JointDrive needs Unity 2022.2.", joint);
+                TooOld("useAcceleration of a drive", joint);
             }
 #endif
             return drive;
         }
+
+#if !UNITY_2022_2_OR_NEWER
+        private void TooOld(string field, Joint joint) =>
+            findings.Add(KinefabFinding.Of("UNITY_FIELD_NEWER", "", ("field", field), ("object", joint.name), ("editor", "2022.2")));
+#endif
     }
 }

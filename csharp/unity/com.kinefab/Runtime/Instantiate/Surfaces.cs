@@ -1,71 +1,111 @@
 using System;
-using Kinefab.Validation;
+using System.Collections.Generic;
 using UnityEngine;
 using UnityEngine.Rendering;
 using Doc = Kinefab.Document;
 
 namespace KinefabUnity
 {
-    /// <summary>Meshes and materials of a scene, each made when it is first asked for and shared by all that show it.</summary>
+    /// <summary>Makes materials of the shader that the project's render pipeline calls its standard one, or of a template.</summary>
     internal sealed class Surfaces
     {
-        private readonly ValidScene scene;
+        private const int TransparentQueue = 3000;
         private readonly Material template;
-        private readonly Mesh[] meshes;
-        private readonly Material[] materials;
+        private readonly List<KinefabFinding> findings;
+        private Shader shader;
+        private bool isLooked;
 
-        internal Surfaces(ValidScene scene, Material template)
+        /// <param name="template">Copied for each surface; null: what the pipeline has.</param>
+        /// <param name="findings">Gets what the project lacks.</param>
+        internal Surfaces(Material template, List<KinefabFinding> findings)
         {
-            this.scene = scene;
-            this.template = template;
-            meshes = new Mesh[scene.Document.Meshes.Count];
-            materials = new Material[scene.Document.Materials.Count];
+            this.template = template != null ? template : PipelineMaterial();
+            this.findings = findings;
         }
 
-        internal Mesh Mesh(int index) => meshes[index] ??= Make(scene.Mesh(index));
-
-        internal Material Material(int index) => materials[index] ??= Make(scene.Document.Materials[index]);
-
-        private static Mesh Make(MeshData data)
+        /// <summary>Null where the project has no shader for it: Unity then shows its own sign for that.</summary>
+        internal Material Make(Doc.Material from)
         {
-            Doc.Mesh from = data.Mesh;
-
-            // The size of an index first: 65,536 vertices and more do not fit the smaller one.
-            var mesh = new Mesh { name = from.Name, indexFormat = (IndexFormat)from.IndexFormat, vertices = Vectors(data.Positions) };
-            mesh.subMeshCount = from.Submeshes.Count;
-            for (int i = 0; i < from.Submeshes.Count; i++)
+            Material material = Blank(from.Name);
+            if (material == null)
             {
-                mesh.SetTriangles(Indices(data, from.Submeshes[i]), i);
+                return null;
             }
 
-            if (!data.Uv.IsEmpty)
-            {
-                mesh.uv = Pairs(data.Uv);
-            }
-
-            if (data.Normals.IsEmpty)
-            {
-                mesh.RecalculateNormals();
-            }
-            else
-            {
-                mesh.normals = Vectors(data.Normals);
-            }
-
-            return mesh;
-        }
-
-        private Material Make(Doc.Material from)
-        {
-            Material material = template != null ? new Material(template) : new Material(Shader.Find("Standard"));
             material.name = from.Name;
 
             // The file's colour is linear, a material's property is not.
-            material.color = new Color((float)from.Color.R, (float)from.Color.G, (float)from.Color.B, (float)from.Color.A).gamma;
+            Color color = new Color((float)from.Color.R, (float)from.Color.G, (float)from.Color.B, (float)from.Color.A).gamma;
+            foreach (string property in new[] { "_Color", "_BaseColor" })
+            {
+                if (material.HasProperty(property))
+                {
+                    material.SetColor(property, color);
+                }
+            }
+
             Set(material, "_Metallic", from.Metallic);
             Set(material, "_Glossiness", from.Smoothness); // Standard
             Set(material, "_Smoothness", from.Smoothness); // URP and HDRP Lit
+            if (from.Color.A < 1)
+            {
+                Blend(material);
+            }
+
             return material;
+        }
+
+        // Of the editor: in a build pipelines have none, and there a template is given.
+        private static Material PipelineMaterial()
+        {
+            RenderPipelineAsset pipeline = GraphicsSettings.currentRenderPipeline;
+            return pipeline == null ? null : pipeline.defaultMaterial;
+        }
+
+        private Material Blank(string name)
+        {
+            if (template != null)
+            {
+                return new Material(template);
+            }
+
+            if (!isLooked)
+            {
+                isLooked = true;
+                shader = Find(GraphicsSettings.currentRenderPipeline, out string wanted);
+                if (shader == null)
+                {
+                    findings.Add(KinefabFinding.Of("UNITY_SHADER_MISSING", "/materials", ("shader", wanted)));
+                }
+            }
+
+            return shader == null ? null : new Material(shader);
+        }
+
+        // By the name of the pipeline's class: the package refers to no pipeline.
+        private static Shader Find(RenderPipelineAsset pipeline, out string wanted)
+        {
+            string kind = pipeline == null ? "" : pipeline.GetType().Name;
+            wanted = kind.IndexOf("Universal", StringComparison.Ordinal) >= 0 ? "Universal Render Pipeline/Lit"
+                : kind.IndexOf("HD", StringComparison.Ordinal) >= 0 ? "HDRP/Lit" : "Standard";
+            Shader own = pipeline == null ? null : pipeline.defaultShader;
+            return own != null ? own : Shader.Find(wanted);
+        }
+
+        // Standard's Transparent, and Transparent with premultiplied colours of URP's and HDRP's Lit.
+        private static void Blend(Material material)
+        {
+            Set(material, "_Mode", 3);
+            Set(material, "_Surface", 1);
+            Set(material, "_SurfaceType", 1);
+            Set(material, "_SrcBlend", (int)BlendMode.One);
+            Set(material, "_DstBlend", (int)BlendMode.OneMinusSrcAlpha);
+            Set(material, "_AlphaSrcBlend", (int)BlendMode.One);
+            Set(material, "_AlphaDstBlend", (int)BlendMode.OneMinusSrcAlpha);
+            Set(material, "_ZWrite", 0);
+            material.SetOverrideTag("RenderType", "Transparent");
+            material.EnableKeyword(material.HasProperty("_Mode") ? "_ALPHAPREMULTIPLY_ON" : "_SURFACE_TYPE_TRANSPARENT");
+            material.renderQueue = TransparentQueue;
         }
 
         private static void Set(Material material, string property, double value)
@@ -74,40 +114,6 @@ namespace KinefabUnity
             {
                 material.SetFloat(property, (float)value);
             }
-        }
-
-        private static Vector3[] Vectors(ReadOnlySpan<float> numbers)
-        {
-            var vectors = new Vector3[numbers.Length / 3];
-            for (int i = 0; i < vectors.Length; i++)
-            {
-                vectors[i] = new Vector3(numbers[3 * i], numbers[3 * i + 1], numbers[3 * i + 2]);
-            }
-
-            return vectors;
-        }
-
-        private static Vector2[] Pairs(ReadOnlySpan<float> numbers)
-        {
-            var pairs = new Vector2[numbers.Length / 2];
-            for (int i = 0; i < pairs.Length; i++)
-            {
-                pairs[i] = new Vector2(numbers[2 * i], numbers[2 * i + 1]);
-            }
-
-            return pairs;
-        }
-
-        private static int[] Indices(MeshData data, Doc.Submesh part)
-        {
-            var indices = new int[part.IndexCount];
-            for (int i = 0; i < indices.Length; i++)
-            {
-                int at = part.IndexStart + i;
-                indices[i] = data.Indices16.IsEmpty ? (int)data.Indices32[at] : data.Indices16[at];
-            }
-
-            return indices;
         }
     }
 }

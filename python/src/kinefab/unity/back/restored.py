@@ -35,6 +35,7 @@ from ...model import (
 from ...spatial import Array, Pose, frame_from_axes, matrix_from_quaternion
 from .. import frames
 from ..scene.joints.configurable_joint import MOTION_FIELDS
+from .drives import breaks, driven, hinge_turn, slerp_of
 
 WORLD = "the world"
 """Id of the node that stands for the world, on which joints without a connected body hang."""
@@ -172,8 +173,17 @@ def _joint(name: str, component: Entry, index: int, reading: _Reading) -> Joint:
         reading.nodes[node].pose.inverse() @ Pose(world, at) for node, at in ((a, at_a), (b, at_b))
     )
     because = tuple(str(source) for source in component.get("because", ()))
-    own = str(extras.get("name", ""))
-    return Joint(name, kind, a, b, frame_a, frame_b, freedoms, own, because=because)
+    own = str(component.get("name") or extras.get("name", ""))
+    force, torque = breaks(component)
+    return Joint(
+        name, kind, a, b, frame_a, frame_b, freedoms, own,
+        break_force=force,
+        break_torque=torque,
+        collide=bool(component.get("enableCollision", False)),
+        closes=bool(component.get("closure", False)),
+        slerp=slerp_of(component),
+        because=because,
+    )  # fmt: skip
 
 
 def _hinge_freedoms(component: Entry) -> tuple[Freedom, ...]:
@@ -182,7 +192,7 @@ def _hinge_freedoms(component: Entry) -> tuple[Freedom, ...]:
     if component.get("useLimits", False):
         low, high = math.radians(limits.get("min", 0.0)), math.radians(limits.get("max", 0.0))
         turn = Freedom(Motion.LIMITED, min(low, high), max(low, high))
-    return freedoms_of(JointKind.REVOLUTE, rx=turn)
+    return freedoms_of(JointKind.REVOLUTE, rx=hinge_turn(component, turn))
 
 
 def _freedoms(component: Entry) -> tuple[Freedom, ...]:
@@ -193,7 +203,7 @@ def _freedoms(component: Entry) -> tuple[Freedom, ...]:
     for i, field in enumerate(MOTION_FIELDS):
         motion = _WORDS[component.get(field, "Free")]
         found.append(_limited(component, i) if motion is Motion.LIMITED else Freedom(motion))
-    return tuple(found)
+    return driven(component, tuple(found))
 
 
 def _limited(component: Entry, i: int) -> Freedom:

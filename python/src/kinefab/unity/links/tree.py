@@ -233,7 +233,8 @@ class _Articulation:
             self._tell_range(joint)
         if moving["jointType"] != "Fixed" and (stated := self.joints.get(joint.id)) is not None:
             moving = bounded(moving, stated, self.report)
-        moving["because"], moving["extras"] = joint.because, joint.extras
+        named = {"name": joint.name} if joint.name else {}
+        moving["because"], moving["extras"] = joint.because, {**named, **joint.extras}
         tell_link_losses(joint, body, self.objects[child].id, self.report)
         return replace(link, **moving, **self._anchors(joint, edge, child, parent))
 

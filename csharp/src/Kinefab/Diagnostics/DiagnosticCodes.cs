@@ -231,6 +231,9 @@ public static class DiagnosticCodes
     /// <summary>A limit of {angle} degrees is cut to 180.</summary>
     public const string HingeLimitsBeyond180 = "HINGE_LIMITS_BEYOND_180";
 
+    /// <summary>The stop at {angle} degrees is so near a half turn that the hinge may turn past it: its angle wraps there.</summary>
+    public const string HingeLimitsWrap = "HINGE_LIMITS_WRAP";
+
     /// <summary>A limit of {angle} degrees is more than extendedLimits reach.</summary>
     public const string HingeLimitsBeyond360 = "HINGE_LIMITS_BEYOND_360";
 
@@ -242,6 +245,9 @@ public static class DiagnosticCodes
 
     /// <summary>A limit of {angle} degrees is never reached: angles are measured within a half turn.</summary>
     public const string AngularLimitBeyond180 = "ANGULAR_LIMIT_BEYOND_180";
+
+    /// <summary>The stop at {angle} degrees is so near a half turn that the joint may turn past it: its angle wraps there.</summary>
+    public const string AngularLimitWraps = "ANGULAR_LIMIT_WRAPS";
 
     /// <summary>A swing limit of {angle} degrees beside a free swing is never reached: the joint's X rises to 90 degrees at most.</summary>
     public const string SwingLimitBeyond90 = "SWING_LIMIT_BEYOND_90";

@@ -1,7 +1,4 @@
 using System;
-using System.Globalization;
-using System.Linq;
-using System.Security.Cryptography;
 
 namespace Kinefab.Document;
 
@@ -43,15 +40,7 @@ public sealed partial record SceneBuffer : DocumentObject
     }
 
     /// <summary>With the size of its data; what is stated as their hash is kept.</summary>
-    internal SceneBuffer Stated() => this with { ByteLength = data!.Value.Length, Sha256 = Sha256.Length > 0 ? Sha256 : Hash(data.Value.Span) };
-
-    private static string Hash(ReadOnlySpan<byte> bytes)
-    {
-        Span<byte> hash = stackalloc byte[32];
-        using var algorithm = SHA256.Create();
-        algorithm.TryComputeHash(bytes, hash, out _);
-        return string.Concat(hash.ToArray().Select(b => b.ToString("x2", CultureInfo.InvariantCulture)));
-    }
+    internal SceneBuffer Stated() => this with { ByteLength = data!.Value.Length, Sha256 = Sha256.Length > 0 ? Sha256 : ContentHash.Of(data.Value.Span) };
 
     private protected override string Describe() => $"buffer {Uri ?? "in the scene's file"} of {ByteLength} bytes{(Data is null ? ", not loaded" : "")}";
 }

@@ -122,9 +122,9 @@ def _in_unity(content: Content) -> UnityScene:
     """In Unity's terms, as the format can say them; by links where that is asked for."""
     links = content.options.get("physics") == "articulation"
     scene = with_led_joints_on_light_bodies(with_one_term_each(content.unity(links), content.report))
-    for joint in content.scene.joints:  # a scene has fields for what no joint of Unity's has
-        withdraw_stated(joint, content.report)
     if not links:
+        for joint in content.scene.joints:  # a scene has fields for what no joint of Unity's has
+            withdraw_stated(joint, content.report)
         return scene
     return articulated(scene, {joint.id: joint for joint in content.scene.joints}, content.report)
 

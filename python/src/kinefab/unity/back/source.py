@@ -72,7 +72,7 @@ class WrittenScene(Scene):
         )
         if anew or (links and not has_links):
             return None
-        for joint in self.joints:  # what a target's joints have no field for, as where they are made anew
+        for joint in () if has_links else self.joints:  # no joint of Unity's has a field for it, as where they are made anew
             with_passive_drives(joint, report)
         return self.written
 

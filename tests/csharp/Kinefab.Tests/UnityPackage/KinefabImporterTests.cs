@@ -96,7 +96,8 @@ public sealed class KinefabImporterTests
     public void Import_Twice_GivesTheSame()
     {
         using var scene = new EditedScene();
-        Assert.That(References(ImportedAsset.Of(scene.Scene)), Is.EquivalentTo(References(ImportedAsset.Of(scene.Scene))));
+        var first = References(ImportedAsset.Of(scene.Scene));
+        Assert.That(References(ImportedAsset.Of(scene.Scene)), Is.EquivalentTo(first));
     }
 
     private static IEnumerable<string> Broken() => Directory.GetFiles(Invalid, "*.kinefab", SearchOption.AllDirectories)

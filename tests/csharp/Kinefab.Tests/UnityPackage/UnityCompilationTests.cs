@@ -9,7 +9,7 @@ namespace Kinefab.Tests.UnityPackage;
 public sealed class UnityCompilationTests
 {
     private static IEnumerable<TestCaseData> Editors() =>
-        UnityEditors.All.SelectMany(editor => new[] { true, false }.Select(isEditor => new TestCaseData(editor, isEditor)));
+        UnityEditors.All.SelectMany<string, TestCaseData>(editor => [new(editor, true), new(editor, false)]);
 
     [TestCaseSource(nameof(Editors))]
     public void Sources_OfEveryEditor_Compile(string editor, bool isEditor)

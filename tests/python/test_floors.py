@@ -51,6 +51,7 @@ FLOORS: dict[str, list[set[str]]] = {
         {"frames", "scene", "definitions", "container"},
         {"bodies", "assets", "joints", "constraints", "mobility", "standing", "placing"},
         {"mapping", "overlaps", "sums"},
+        {"welded"},
         {"counting", "links", "back"},
         {"__init__"},
     ],

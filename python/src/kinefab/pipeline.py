@@ -39,11 +39,13 @@ from .targets import check_target, known_endings, target_of, write
 from .targets.content import Content
 from .unity.back.source import WrittenScene
 from .unity.bodies.colliders import Colliders
+from .unity.bodies.mated import with_mated_apart
 from .unity.joints.breaking import with_sound_breaks
 from .unity.mapping import map_scene
 from .unity.overlaps import check_overlaps
 from .unity.scene import Joint as UnityJoint
 from .unity.scene import UnityScene
+from .unity.welded import with_welded_apart
 
 Progress = Callable[[str, float], None]
 """Called with a stage's name and how much of it is done, 0 to 1."""
@@ -159,6 +161,7 @@ def analysed(scene: Scene, options: ExportOptions, report: Report, progress: Pro
     report.extend(found.report)
     exported = with_helpers(found.scene(options.solve))
     groups = rigid_groups(exported, found.fixed)
+    exported = with_mated_apart(exported, groups)
     progress("analyse", 1.0)
     return Analysed(found, exported, groups)
 
@@ -265,7 +268,9 @@ def _mapped(found: Analysed, options: ExportOptions, links: bool, report: Report
     made = collision_meshes(found.scene, groups, options.colliders, options.ground, convex, report)
     colliders = Colliders.behind(len(scene.meshes), made, options.colliders, options.ground, convex)
     entry, held = scene_entry(found.analysis), holding(found.analysis)
-    mapped = map_scene(scene, groups, colliders, report, entry, held, found.analysis.findings)
+    mapped = with_welded_apart(
+        map_scene(scene, groups, colliders, report, entry, held, found.analysis.findings)
+    )
     check_overlaps(mapped, report)
     report.settle()
     return mapped

@@ -269,11 +269,14 @@ def canonical_json(content: dict[str, Any]) -> Iterator[str]:
         return texts[id(entry)]
 
     def game_object(entry: dict[str, Any]) -> str:
-        head = flat({k: v for k, v in entry.items() if k != "components"})
         if not (components := entry.get("components")):
-            return head
+            return flat({k: v for k, v in entry.items() if k != "components"})
         lines = ",\n      ".join(component(c) for c in components)
-        return f'{head[:-1]}, "components": [\n      {lines}\n    ]}}'
+        keys = list(entry)
+        place = keys.index("components")
+        head, rest = (flat({k: entry[k] for k in part}) for part in (keys[:place], keys[place + 1 :]))
+        more = f", {rest[1:-1]}" if place + 1 < len(keys) else ""
+        return f'{head[:-1]}, "components": [\n      {lines}\n    ]{more}}}'
 
     before = "{\n"
     for key, value in content.items():

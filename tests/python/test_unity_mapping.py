@@ -257,7 +257,7 @@ def test_textures_physics_materials_and_sums_are_carried(tmp_path):
         bodies=(Body("b", 0, (0,)),),
         colliders=(Collider(ColliderKind.BOX, size=(0.1, 0.1, 0.1), material=rubber),),
     )
-    image = png(tmp_path / "paint.png", np.zeros((2, 2, 3), np.uint8)).read_bytes()
+    image = png(tmp_path / "paint.png", np.zeros((2, 2, 4), np.uint8)).read_bytes()
     texture = Texture("paint.png", data=image, wrap=Wrap.CLAMP, uv_set=1, scale=(2.0, 3.0), rotation=math.pi / 6)
     plain = Texture("paint.png", data=image)
     shown = {"color_texture": texture, "emission_texture": plain, "occlusion_texture": plain}
@@ -274,7 +274,7 @@ def test_textures_physics_materials_and_sums_are_carried(tmp_path):
     (coupling,) = result.unity.couplings
     assert [t.ratio for t in coupling.terms] == pytest.approx([0.1 * math.pi / 180, -0.2 * math.pi / 180])
     assert outcomes(result, Outcome.DROPPED) == set()
-    assert content["physicsMaterials"] == [{"name": "rubber", "dynamicFriction": 0.9, "staticFriction": 1, "frictionCombine": "Multiply"}]
+    assert content["physicsMaterials"] == [{"name": "rubber", "dynamicFriction": 0.9, "staticFriction": 1}]
     assert component(content, "Arm", "BoxCollider")["material"] == 0
     shown = content["materials"][-1]
     assert shown["colorTexture"] == {"image": 0, "uvSet": 1, "wrap": "clamp", "scale": [2, 3], "rotation": 30}

@@ -5,6 +5,7 @@ from __future__ import annotations
 import json
 import re
 import struct
+from dataclasses import replace
 from pathlib import Path
 
 import kinefab
@@ -73,6 +74,61 @@ def test_a_prefab_of_a_scene_whose_source_tells_its_parts_by_more_than_names_has
 def test_a_package_of_a_scene_has_the_same_bytes(tmp_path):
     direct, by_scene = twice(LEVER / "lever.bundle.json", ".unitypackage", tmp_path, unity="6")
     assert direct == by_scene
+
+
+LINKED = [LEVER / "lever.bundle.json", LEVER / "lever.urdf"] + [
+    FIXTURES / "mechanisms" / f"{name}.bundle.json" for name in ("M01", "M08", "M25", "M26", "M27")
+]
+
+
+@pytest.mark.parametrize("source", LINKED, ids=lambda path: path.name)
+def test_a_scene_of_links_is_a_source_as_one_of_bodies_is(source, tmp_path):
+    """Asked for links again or not; and it moves as the source does."""
+    asked = kinefab.ExportOptions(writing={"physics": "articulation"})
+    scene = kinefab.export(source, tmp_path / "scene.kinefab", asked).path
+    for name, options in (("plain", kinefab.ExportOptions()), ("asked", asked)):
+        (tmp_path / name).mkdir()
+        again = kinefab.export(scene, tmp_path / name / "scene.kinefab", options).path
+        assert again.read_bytes() == scene.read_bytes()
+    direct, by_scene = ({}, {})
+    for files, given in ((direct, source), (by_scene, scene)):
+        folder = tmp_path / ("prefab of scene" if given is scene else "prefab")
+        folder.mkdir()
+        kinefab.export(given, folder / "scene.prefab", asked)
+        files |= {str(p.relative_to(folder)): p.read_bytes() for p in folder.rglob("*") if p.is_file()}
+    assert direct == by_scene
+    whole, links = kinefab.motion(source), kinefab.motion(scene)
+    assert whole.mobility == links.mobility
+    document = glb(kinefab.export(scene, tmp_path / "scene.glb").path.read_bytes())
+    moving = [n for n in document["nodes"] if "motion" in n.get("extensions", {}).get("KHR_physics_rigid_bodies", {})]
+    assert sum("mass" in node["extensions"]["KHR_physics_rigid_bodies"]["motion"] for node in moving) >= 2
+
+
+def test_the_range_and_the_drive_of_a_link_come_back(tmp_path):
+    """Turned anchors, asymmetric ends: what the page and a .glb of it tell is what the joint was made with."""
+    scene = kinefab.Scene()
+    parts = [
+        scene.add_part(name, translation=at, mass=kinefab.MassProperties(m, np.zeros(3), 0.01 * m * np.eye(3)))
+        for name, at, m in (("Base", (0, 0, 0), 1.0), ("Arm", (0.1, 0.2, 0.3), 2.0), ("Slide", (0.4, 0.1, -0.2), 3.0))
+    ]
+    scene.nodes[0] = replace(scene.nodes[0], grounded=True)
+    drive = kinefab.Drive(target=0.2, stiffness=30.0, damping=2.0, max_force=7.0)
+    scene.add_hinge(parts[0], parts[1], point=(0.1, 0.1, 0), axis=(0.6, 0.0, 0.8), limits=(-20, 70), name="Turn", drive=drive)
+    scene.add_slider(parts[1], parts[2], point=(0, 0, 0.1), axis=(0, 0.8, -0.6), limits=(-0.1, 0.4), name="Reach")
+    asked = kinefab.ExportOptions(writing={"physics": "articulation"})
+    path = kinefab.export(scene, tmp_path / "arm.kinefab", asked).path
+    stated = {joint.name: joint for joint in scene.joints}
+    found = {joint.name: joint for joint in kinefab.sources.read(path, kinefab.Report()).joints}
+    for name, freedom, base in (("Turn", 3, parts[0]), ("Reach", 0, parts[1])):
+        axes = [(scene.pose(base) @ joint.frame_a).rotation[:, 0] for joint in (stated[name], found[name])]
+        sense = float(axes[0] @ axes[1])  # a link may count about the axis turned round
+        assert abs(sense) == pytest.approx(1.0)
+        one, other = stated[name].freedoms[freedom], found[name].freedoms[freedom]
+        one = one if sense > 0.0 else one.turned_round()
+        assert (other.lower, other.upper) == pytest.approx((one.lower, one.upper))
+        if name == "Turn":
+            assert other.drive.target == pytest.approx(one.drive.target)
+            assert (other.drive.stiffness, other.drive.max_force) == pytest.approx((30.0, 7.0))
 
 
 def glb(content: bytes) -> dict:

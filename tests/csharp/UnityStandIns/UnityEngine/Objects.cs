@@ -286,5 +286,7 @@ namespace UnityEngine
     public static class Application
     {
         public static bool isPlaying { get; internal set; }
+
+        public static string unityVersion => "6000.7.0a1";
     }
 }

@@ -19,8 +19,8 @@ namespace KinefabUnity.Editing
                 string folder = slash < 0 ? "" : path.Substring(0, slash + 1);
                 foreach (SceneBuffer buffer in document.Buffers)
                 {
-                    // A name that leads elsewhere is refused by the validator.
-                    if (buffer.Uri.Length > 0 && Path.GetFileName(buffer.Uri) == buffer.Uri)
+                    // A buffer without a name is in the file itself; a name that leads elsewhere is refused by the validator.
+                    if (!string.IsNullOrEmpty(buffer.Uri) && Path.GetFileName(buffer.Uri) == buffer.Uri)
                     {
                         found.Add(folder + buffer.Uri);
                     }

@@ -71,6 +71,7 @@ namespace KinefabUnity.Editing
             }
 
             ValidScene scene = ImportedFile.Validated(reading);
+            KinefabFinding.Add(reading.Report, findings);
             KinefabFinding.Add(scene.Report, findings);
             KinefabFinding.AddLosses(scene.Document, findings);
 

@@ -61,7 +61,14 @@ namespace KinefabUnity
             to.twistLock = (ArticulationDofLock)from.TwistLock;
             to.swingYLock = (ArticulationDofLock)from.SwingYLock;
             to.swingZLock = (ArticulationDofLock)from.SwingZLock;
-            to.xDrive = Drive(from.XDrive, from.JointType == Doc.ArticulationJointType.Prismatic ? placement.Scale : 1);
+            bool isSlide = from.JointType == Doc.ArticulationJointType.Prismatic;
+            ArticulationDrive along = Drive(from.XDrive, isSlide ? placement.Scale : 1);
+            if (isSlide && RunsSlidesBackwards(Application.unityVersion))
+            {
+                along.targetVelocity = -along.targetVelocity;
+            }
+
+            to.xDrive = along;
             to.yDrive = Drive(from.YDrive, 1);
             to.zDrive = Drive(from.ZDrive, 1);
             to.linearDamping = (float)from.LinearDamping;
@@ -87,6 +94,28 @@ namespace KinefabUnity
             to.collisionDetectionMode = (CollisionDetectionMode)from.CollisionDetectionMode;
             to.solverIterations = from.SolverIterations ?? project.SolverIterations;
             to.solverVelocityIterations = from.SolverVelocityIterations ?? project.SolverVelocityIterations;
+        }
+
+        /// <summary>
+        /// Whether an editor runs slides against their drive's target velocity, as PhysX 4.1 does. Mended with 6000.0.68, 6000.3.9 and
+        /// 6000.4 (Unity's UUM-113920); what others do is taken from there, not tried.
+        /// </summary>
+        internal static bool RunsSlidesBackwards(string editor)
+        {
+            string[] parts = editor.Split('.');
+            int digits = 0;
+            while (parts.Length > 2 && digits < parts[2].Length && char.IsDigit(parts[2][digits]))
+            {
+                digits++;
+            }
+
+            if (digits == 0 || !int.TryParse(parts[0], out int year) || !int.TryParse(parts[1], out int stream))
+            {
+                return false;
+            }
+
+            int patch = int.Parse(parts[2].Substring(0, digits), System.Globalization.CultureInfo.InvariantCulture);
+            return year < 6000 || (year == 6000 && (stream == 0 ? patch < 68 : stream == 3 ? patch < 9 : stream < 3));
         }
 
         // lengths: of a slide, whose targets are metres.

@@ -34,8 +34,22 @@ namespace KinefabUnity
         {
             KinefabSource source = CreateInstance<KinefabSource>();
             source.name = "Source";
-            source.text = text;
+            source.text = WithoutBuffers(text);
             return source;
+        }
+
+        // A file that holds its buffers (SPEC, section 1) begins with a head of 12 bytes, then comes the text with its length before it.
+        private static byte[] WithoutBuffers(byte[] file)
+        {
+            const int Head = 12, ChunkHead = 8;
+            if (file.Length < Head + ChunkHead || System.Text.Encoding.ASCII.GetString(file, 0, 4) != "KFAB")
+            {
+                return file;
+            }
+
+            int length = System.BitConverter.ToInt32(file, Head);
+            bool isWhole = length >= 0 && length <= file.Length - Head - ChunkHead;
+            return isWhole ? new System.ArraySegment<byte>(file, Head + ChunkHead, length).ToArray() : file;
         }
 
         internal void Tell(List<KinefabFinding> found) => findings = found.ToArray();

@@ -109,7 +109,8 @@ class _Nodes:
         self.placed = {i: kind for i in range(len(self.objects)) if (kind := self._place_of(i))}
         kept = [i for i in range(len(self.objects)) if i != self.ground and i not in self.placed]
         self.node_of = {index: node for node, index in enumerate(kept)}
-        self.moving = [any(isinstance(c, Rigidbody) and c != HELD for c in o.components) for o in self.objects]
+        self.bodies = [_body(entry.components) for entry in self.objects]
+        self.moving = [body is not None and not self._is_held(i) for i, body in enumerate(self.bodies)]
         self.above_moving = list(self.moving)
         for index in range(len(self.objects) - 1, -1, -1):
             parent = self.objects[index].parent
@@ -153,18 +154,28 @@ class _Nodes:
         drawn = all(isinstance(c, (MeshFilter, MeshRenderer, Collider)) for c in entry.components)
         return kind if kind in ("body", "collider", "site") and drawn else ""
 
+    def _is_held(self, index: int) -> bool:
+        """Whether its own body stands: one that holds what stands, or the base of an articulation that is told to."""
+        body = self.bodies[index]
+        if isinstance(body, ArticulationBody):
+            at = self.objects[index].parent
+            while at is not None and not isinstance(self.bodies[at], ArticulationBody):
+                at = self.objects[at].parent
+            return body.immovable and at is None
+        return body == HELD
+
     def _node(self, index: int) -> Node:
-        entry = self.objects[index]
-        body = next((c for c in entry.components if isinstance(c, Rigidbody)), None)
+        entry, body = self.objects[index], self.bodies[index]
         inner = [i for i in self.children[index] if i in self.placed]
         bodies = [b for i in (index, *inner) for b in self._bodies(i, index)]
         shapes = [s for i in (index, *inner) for s in self._shapes(i, index)]
-        held = body == HELD or (body is None and not self.above_moving[index] and not self._carried(index))
+        stands = body is not None and self._is_held(index)
+        held = stands or (body is None and not self.above_moving[index] and not self._carried(index))
         below = [i for i in self.children[index] if i in self.node_of]
         whole = self.moving[index] and bool(below) and not any(self.above_moving[i] for i in below)
         part = (bool(bodies or shapes or not below) or body is not None) and not whole
         mass = None
-        if body is not None and body != HELD:
+        if body is not None and not stands:
             turn = frames.rotation(matrix_from_quaternion(np.array(body.inertiaTensorRotation)))
             inertia = turn @ np.diag(body.inertiaTensor) @ turn.T
             mass = MassProperties(body.mass, frames.point(body.centerOfMass), inertia)
@@ -181,7 +192,7 @@ class _Nodes:
             flexible=not whole and not self._carried(index),
             suppressed=not entry.active,
             colliders=tuple(shapes),
-            dynamics=Dynamics() if body is None or body == HELD else _dynamics(body),
+            dynamics=Dynamics() if body is None or stands else _dynamics(body),
             sites=tuple(
                 Site(self.objects[i].name, self.back.poses[index].inverse() @ self.back.poses[i])
                 for i in inner
@@ -199,7 +210,7 @@ class _Nodes:
         """Whether a body further up moves it."""
         at = self.objects[index].parent
         while at is not None and at != self.ground:
-            if any(isinstance(c, Rigidbody) for c in self.objects[at].components):
+            if self.bodies[at] is not None:
                 return True
             at = self.objects[at].parent
         return False
@@ -308,7 +319,13 @@ def _three(values: Any) -> tuple[float, float, float]:
     return x, y, z
 
 
-def _dynamics(body: Rigidbody) -> Dynamics:
+def _body(components: Sequence[object]) -> Rigidbody | ArticulationBody | None:
+    return next((c for c in components if isinstance(c, (Rigidbody, ArticulationBody))), None)
+
+
+def _dynamics(body: Rigidbody | ArticulationBody) -> Dynamics:
+    if isinstance(body, ArticulationBody):
+        return Dynamics(False, body.useGravity, body.linearDamping, body.angularDamping)
     return Dynamics(
         body.isKinematic,
         body.useGravity,

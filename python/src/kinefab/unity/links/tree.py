@@ -51,8 +51,10 @@ Edge = tuple[int, int]
 
 
 def articulated(scene: UnityScene, joints: Mapping[str, ModelJoint], report: Report) -> UnityScene:
-    """The scene with links for Rigidbodies; its couplings are those of the links' coordinates.  joints: of the model, by id.  The report
-    gets an error for each joint that no articulation has."""
+    """The scene with links for Rigidbodies, or as it is where it has links; its couplings are those of the links' coordinates.
+    joints: of the model, by id.  The report gets an error for each joint that no articulation has."""
+    if any(isinstance(c, ArticulationBody) for entry in scene.gameObjects for c in entry.components):
+        return scene
     return _Articulation(scene, joints, report).scene_of_links()
 
 

@@ -291,6 +291,9 @@ public static class DiagnosticCodes
     /// <summary>The coordinate "{coordinate}" is locked, so the coupling holds the other one still.</summary>
     public const string CouplingCoordinateLocked = "COUPLING_COORDINATE_LOCKED";
 
+    /// <summary>The source states what neither solver follows and no joint of Unity's has.</summary>
+    public const string JointStatedUnfollowed = "JOINT_STATED_UNFOLLOWED";
+
     /// <summary>{what} is {stated} in the file, counted from the source's constraints, and {counted} counted from the joints.</summary>
     public const string MobilityDiffers = "MOBILITY_DIFFERS";
 

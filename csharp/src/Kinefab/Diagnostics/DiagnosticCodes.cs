@@ -288,6 +288,9 @@ public static class DiagnosticCodes
     /// <summary>The coordinate "{coordinate}" is locked, so the coupling holds the other one still.</summary>
     public const string CouplingCoordinateLocked = "COUPLING_COORDINATE_LOCKED";
 
+    /// <summary>The source states what neither solver follows and no joint of Unity's has.</summary>
+    public const string JointStatedUnfollowed = "JOINT_STATED_UNFOLLOWED";
+
     /// <summary>{what} is {stated} in the file, counted from the source's constraints, and {counted} counted from the joints.</summary>
     public const string MobilityDiffers = "MOBILITY_DIFFERS";
 
@@ -311,6 +314,18 @@ public static class DiagnosticCodes
 
     /// <summary>The exact solver leaves out {what} of the link.</summary>
     public const string LinkNotExact = "LINK_NOT_EXACT";
+
+    /// <summary>The recording {path} cannot be read: {detail}.</summary>
+    public const string RecordingUnreadable = "RECORDING_UNREADABLE";
+
+    /// <summary>The recording {path} is of version {version}, this tool knows {known}.</summary>
+    public const string RecordingVersionUnknown = "RECORDING_VERSION_UNKNOWN";
+
+    /// <summary>{path} is the recording of another scene than {scene}, or of an earlier state of the file: its bytes differ.</summary>
+    public const string RecordingOtherScene = "RECORDING_OTHER_SCENE";
+
+    /// <summary>{where} is the first that differs from the recording {path}.</summary>
+    public const string RecordingDiffers = "RECORDING_DIFFERS";
 
     /// <summary>The {joint} comes apart by {measure} within {seconds} s in Unity's solver{others}.</summary>
     public const string AdviceJointDrifts = "ADVICE_JOINT_DRIFTS";

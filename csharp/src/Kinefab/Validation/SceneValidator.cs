@@ -140,6 +140,7 @@ public static class SceneValidator
         {
             JointRules.AnchorNumbers(anchored, at);
             JointRules.Axis(anchored, at);
+            JointRules.Stated(anchored, at);
         }
 
         if (joint is HingeJoint hinge)

@@ -25,6 +25,7 @@ from ..replacing import beside, one_at_a_time, remove_leftovers, replacing, sync
 from ..spatial import bounds
 from ..unity.container import write_container
 from ..unity.counting import with_led_joints_on_light_bodies
+from ..unity.joints.passive import withdraw_stated
 from ..unity.links.tree import articulated
 from ..unity.scene import BodyFreedom, Component, Coupling, GameObject, Joint, Mesh, Mobility, UnityScene
 from ..unity.sums import with_one_term_each
@@ -122,6 +123,8 @@ def _in_unity(content: Content) -> UnityScene:
     links = content.options.get("physics") == "articulation"
     scene = with_led_joints_on_light_bodies(with_one_term_each(content.unity(links), content.report))
     if not links:
+        for joint in content.scene.joints:  # a scene has fields for what no joint of Unity's has
+            withdraw_stated(joint, content.report)
         return scene
     return articulated(scene, {joint.id: joint for joint in content.scene.joints}, content.report)
 

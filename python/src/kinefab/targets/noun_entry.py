@@ -10,7 +10,7 @@ from typing import Any, cast
 from ..unity.definitions import NONE, Noun, Property, definition_of, definitions, properties
 from .numbers import plain_value, significant, whole_numbers
 
-SIGNIFICANT = frozenset({"mass", "inertiaTensor", "ratio"})
+SIGNIFICANT = frozenset({"mass", "inertiaTensor", "ratio", "armature"})
 """Fields whose size says nothing about their precision; all others are lengths, directions and angles."""
 
 LEFT_OUT_EMPTY = frozenset({"because", "localPosition", "localRotation"})

@@ -18,4 +18,9 @@ public sealed class UnityCompilationTests
         IEnumerable<Diagnostic> errors = UnityEditors.Compile(editor, isEditor, inputs[0]).GetDiagnostics().Where(d => d.Severity == DiagnosticSeverity.Error);
         Assert.That(errors.Select(d => d.ToString()), Is.Empty);
     }
+
+    [TestCase("2021.3")]
+    [TestCase("6000.7")]
+    public void Tests_OfThePackage_Compile(string editor) =>
+        Assert.That(UnityEditors.CompileTests(editor).GetDiagnostics().Where(d => d.Severity == DiagnosticSeverity.Error).Select(d => d.ToString()), Is.Empty);
 }

@@ -39,7 +39,7 @@ def plain(document: dict, without: set[str]) -> dict[str, object]:
 
 def stripped(component: dict, objects: list[dict]) -> dict[str, object]:
     """Without what no motion depends on: the source's own words, and where a slide's second axis points to."""
-    kept = {k: v for k, v in component.items() if k not in ("extras", "secondaryAxis", "closure", "because")}
+    kept = {k: v for k, v in component.items() if k not in ("extras", "secondaryAxis", "closure", "because", "id", "name")}
     if "connectedBody" in kept:
         kept["connectedBody"] = objects[kept["connectedBody"]]["id"]
     return kept

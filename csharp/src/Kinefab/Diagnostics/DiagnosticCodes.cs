@@ -180,6 +180,9 @@ public static class DiagnosticCodes
     /// <summary>"{uri}" could lead out of the scene's folder.</summary>
     public const string BufferUriUnsafe = "BUFFER_URI_UNSAFE";
 
+    /// <summary>The image does not begin as {mediaType} does.</summary>
+    public const string ImageNotOfKind = "IMAGE_NOT_OF_KIND";
+
     /// <summary>The buffer {uri} cannot be read: {detail}.</summary>
     public const string BufferMissing = "BUFFER_MISSING";
 

@@ -36,9 +36,11 @@ internal static class BufferRules
         return valid;
     }
 
-    /// <summary>Whether an accessor stays inside its buffer, on a multiple of 4.</summary>
-    internal static bool Accessor(Accessor accessor, long byteCount, bool[] usable, SceneDocument document, string field, in Place at)
+    /// <summary>Whether an accessor, if there is one, stays inside its buffer, on a multiple of 4.</summary>
+    internal static bool Accessor(Accessor? accessor, long byteCount, bool[] usable, SceneDocument document, string field, in Place at)
     {
+        if (accessor is null)
+            return true;
         if (!NumberRules.Reference(at, field + "/buffer", accessor.Buffer, "buffers", document.Buffers.Count))
             return false;
         if (accessor.Offset < 0 || accessor.Offset % 4 != 0)

@@ -364,12 +364,17 @@ def _dynamics(body: Rigidbody | ArticulationBody) -> Dynamics:
 
 
 def _mesh(mesh: Mesh) -> ModelMesh:
+    tangents = mesh.tangents
+    if tangents is not None:
+        tangents = np.column_stack([frames.direction(tangents[:, :3]), frames.handedness(tangents[:, 3])])
     return ModelMesh(
         mesh.name,
         frames.point(mesh.vertices),
         frames.winding(mesh.triangles).astype(np.int64),
         None if mesh.normals is None else frames.direction(mesh.normals),
         tuple(np.asarray(uv, dtype=np.float64) for uv in mesh.uvs),
+        tangents,
+        None if mesh.colors is None else np.asarray(mesh.colors, dtype=np.float64),
         face_counts=mesh.submeshes,
     )
 

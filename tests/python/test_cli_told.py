@@ -42,7 +42,7 @@ def test_a_missing_folder_is_named(tmp_path: Path):
 
 
 def test_a_coupling_without_a_component_is_named_as_one(tmp_path: Path):
-    told = run("export", ARM, "-o", tmp_path / "a.prefab", "--scripts").stderr
+    told = run("export", ARM, "-o", tmp_path / "a.prefab").stderr
     assert "Unity has no component for a linear coupling." in told
 
 

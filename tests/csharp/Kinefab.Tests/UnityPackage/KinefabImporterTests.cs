@@ -142,7 +142,7 @@ public sealed class KinefabImporterTests
 
     [TestCase("{\"format\": \"other\", \"version\": \"1.0\", \"gameObjects\": []}", "FORMAT_UNKNOWN")]
     [TestCase("{\"format\": \"kinefab.scene\", \"version\": \"2.0\", \"gameObjects\": []}", "VERSION_UNSUPPORTED")]
-    [TestCase("PK\u0003\u0004 not a scene at all", "JSON_INVALID")]
+    [TestCase("PK\u0003\u0004 not a scene at all", "JSON_SYNTAX")]
     [TestCase("", "SCENE_EMPTY")]
     public void Import_OfSomethingElse_IsASentence(string text, string code)
     {

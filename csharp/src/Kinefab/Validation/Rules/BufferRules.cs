@@ -105,7 +105,7 @@ internal static class BufferRules
 
     private static bool SameBytes(SceneBuffer buffer, in Place at, CancellationToken cancellation)
     {
-        if (ContentHash.Of(buffer.Data!.Value.Span, cancellation) == buffer.Sha256)
+        if (SceneBuffer.Hash(buffer.Data!.Value.Span, cancellation) == buffer.Sha256)
             return true;
         at.Report("sha256", DiagnosticCodes.BufferSha256, ("uri", buffer.Uri ?? "What lies in this file"));
         return false;

@@ -225,7 +225,11 @@ public static class SceneValidator
         bool indices = BufferRules.Accessor(mesh.Indices, MeshData.IndexBytes(mesh), usable, document, "indices", at);
         BufferRules.Accessor(mesh.Normals, vertices * 12, usable, document, "normals", at);
         for (int set = 0; set < MeshData.UvSets; set++)
-            BufferRules.Accessor(MeshData.UvAccessor(mesh, set), vertices * 8, usable, document, set == 0 ? "uv" : "uv" + Invariant.Text(set + 1), at);
+        {
+            if (MeshData.UvAccessor(mesh, set) is Accessor uv)
+                BufferRules.Accessor(uv, vertices * 8, usable, document, set == 0 ? "uv" : "uv" + Invariant.Text(set + 1), at);
+        }
+
         BufferRules.Accessor(mesh.Tangents, vertices * 16, usable, document, "tangents", at);
         BufferRules.Accessor(mesh.Colors, vertices * 16, usable, document, "colors", at);
         if (positions)

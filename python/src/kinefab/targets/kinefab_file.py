@@ -20,6 +20,7 @@ from .. import __version__, model
 from ..diagnostics import KinefabError, Report, is_encodable
 from ..replacing import beside, one_at_a_time, remove_leftovers, replacing, sync_directory
 from ..unity.container import write_container
+from ..unity.definitions import UV_SETS
 from ..unity.counting import with_led_joints_on_light_bodies
 from ..unity.joints.passive import withdraw_stated
 from ..unity.links.tree import articulated
@@ -28,7 +29,7 @@ from ..unity.sums import with_one_term_each
 from .content import Content
 from .noun_entry import Noun, entry, needs_newer, newer_keys, unsaid
 from .numbers import plain_value, significant, whole_numbers
-from .scene_buffer import UV_SETS, SceneBuffer, mesh_entry
+from .scene_buffer import SceneBuffer, mesh_entry
 from .scene_looks import Looks
 from .tangents import normal_mapped, with_tangents
 

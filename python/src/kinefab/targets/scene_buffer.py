@@ -8,13 +8,12 @@ from typing import Any, BinaryIO
 import numpy as np
 
 from ..spatial import bounds
+from ..unity.definitions import UV_SETS
 from ..unity.scene import Mesh
 from .numbers import plain_value
 
 UINT16_VERTICES = 65535
 """Most vertices that Unity's 16-bit index format counts."""
-UV_SETS = ("uv", *(f"uv{i}" for i in range(2, 9)))
-"""Of a mesh, by their names in Unity."""
 
 
 class SceneBuffer:

@@ -255,7 +255,8 @@ class _Nodes:
 
     def _joints(self) -> list[Joint]:
         """Between the nodes: the restored ones are between Rigidbodies, and the world is one of them."""
-        carrier = [None if i == 0 else self._index(node.id) for i, node in enumerate(self.back.scene.nodes)]
+        index_of = {entry.id: index for index, entry in enumerate(self.objects)}
+        carrier = [None if i == 0 else index_of[node.id] for i, node in enumerate(self.back.scene.nodes)]
         found: list[Joint] = []
         for (index, k), joint in self.back.joints.items():
             if APART in getattr(self.objects[index].components[k], "extras", {}):
@@ -286,9 +287,6 @@ class _Nodes:
             for coupling in couplings
         ]
 
-    def _index(self, id: str) -> int:
-        return next(i for i, entry in enumerate(self.objects) if entry.id == id)
-
     def _side(self, index: int | None, frame: Pose) -> tuple[int | None, Pose]:
         if index is None:
             return None, frame
@@ -311,10 +309,9 @@ class _Nodes:
         for pair in listed if isinstance(listed, list) else ():
             if isinstance(pair, list) and len(pair) == 2 and all(name in node for name in pair):
                 pairs.append((pair[0], pair[1]))
+        known = {frozenset(pair) for pair in pairs}
         pairs += [
-            (one, other)
-            for one, other in (tuple(sorted(pair)) for pair in reasons)
-            if frozenset((one, other)) not in {frozenset(pair) for pair in pairs}
+            (one, other) for one, other in (tuple(sorted(pair)) for pair in reasons if pair not in known)
         ]
         return [
             Apart(node[a], node[b], reasons.get(frozenset((a, b)), "ignoreCollision"), stated=False)

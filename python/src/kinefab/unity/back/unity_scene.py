@@ -9,7 +9,7 @@ from typing import Any, cast, overload
 import numpy as np
 
 from ...diagnostics import Report
-from ..definitions import Noun
+from ..definitions import UV_SETS, Noun
 from ..scene import (
     AnimationClip,
     Component,
@@ -31,7 +31,6 @@ from .looks import material
 from .nouns import COMPONENTS, component, noun, tell, told
 
 Entry = Mapping[str, Any]
-UV_SETS = ("uv", *(f"uv{i}" for i in range(2, 9)))
 _WIDTHS = {"uint16": "<u2", "uint32": "<u4"}
 
 

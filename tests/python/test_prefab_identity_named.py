@@ -29,6 +29,16 @@ def known(text: str) -> dict[tuple[str, str], set[int]]:
     return found
 
 
+def before_and_after(source: Path, target: Path, texts: tuple[str, str]) -> list[dict[tuple[str, str], set[int]]]:
+    """What is known in the export of a source, and in the next one after it was changed."""
+    found: list[dict[tuple[str, str], set[int]]] = []
+    for text in texts:
+        source.write_text(text, encoding="utf-8")
+        kinefab.export(source, target)
+        found.append(known(prefab_of(target)))
+    return found
+
+
 def arm(change: str) -> str:
     """The bundle of an arm, changed."""
     bundle = json.loads((FIXTURES / "twins" / "arm.bundle.json").read_text(encoding="utf-8"))
@@ -52,13 +62,7 @@ def arm(change: str) -> str:
 @pytest.mark.parametrize("target", TARGETS)
 @pytest.mark.parametrize("change", ["reorder", "insert", "delete", "move", "rename"])
 def test_parts_of_a_bundle_are_known_by_their_ids(tmp_path: Path, change: str, target: str):
-    source, path = tmp_path / "arm.bundle.json", tmp_path / f"Arm.{target}"
-    source.write_text(arm(""), encoding="utf-8")
-    kinefab.export(source, path)
-    before = known(prefab_of(path))
-    source.write_text(arm(change), encoding="utf-8")
-    kinefab.export(source, path)
-    now = known(prefab_of(path))
+    before, now = before_and_after(tmp_path / "arm.bundle.json", tmp_path / f"Arm.{target}", (arm(""), arm(change)))
     gone = {name for _, name in before.keys() - now.keys()}
     assert gone == {"delete": {"FingerA"}, "rename": {"Link1"}}.get(change, set())
     assert {key: now[key] for key in before if key[1] not in gone} == {key: id for key, id in before.items() if key[1] not in gone}
@@ -84,12 +88,7 @@ def assembly(change: str) -> str:
 @pytest.mark.parametrize("target", TARGETS)
 @pytest.mark.parametrize("change", ["reorder", "insert", "move"])
 def test_parts_of_an_assembly_are_known_by_their_names(tmp_path: Path, change: str, target: str):
-    source, path = tmp_path / "lever.asmt", tmp_path / f"Lever.{target}"
-    source.write_text(assembly(""), encoding="utf-8")
-    kinefab.export(source, path)
-    before = known(prefab_of(path))
-    source.write_text(assembly(change), encoding="utf-8")
-    kinefab.export(source, path)
-    now = known(prefab_of(path))
+    texts = (assembly(""), assembly(change))
+    before, now = before_and_after(tmp_path / "lever.asmt", tmp_path / f"Lever.{target}", texts)
     assert {key: now.get(key) for key in before} == before
     assert (len(now) > len(before)) is (change == "insert")

@@ -71,24 +71,35 @@ def test_parts_of_a_bundle_are_known_by_their_ids(tmp_path: Path, change: str, t
 
 
 def assembly(change: str) -> str:
-    """The lever as FreeCAD's solver writes it, changed."""
+    """The lever as FreeCAD's solver writes it with a loose cover beside it, changed."""
     text = (FIXTURES / "lever" / "lever.asmt").read_text(encoding="utf-8")
     start = text.index("\tParts\n") + len("\tParts\n")
     end = re.compile(r"^\t(?=\w)", re.MULTILINE).search(text, start).start()
     parts = re.split(r"(?=^\t\tPart\n)", text[start:end], flags=re.MULTILINE)[1:]
+    cover = parts[-1].replace("lever#SliderD_1", "lever#Cover")
+    parts.append(cover)
     if change == "reorder":
         parts.reverse()
     elif change == "insert":
-        parts.insert(0, parts[-1].replace("lever#SliderD_1", "lever#Cover"))
+        parts.insert(0, cover.replace("lever#Cover", "lever#Seal"))
+    elif change == "delete":
+        parts.remove(cover)
     elif change == "move":
-        parts[2] = re.sub(r"(Mass\n\s+)1\n", r"\g<1>3\n", parts[2])
+        parts[-1] = re.sub(r"(\t\t\tPosition3D\n\s+)\S+", r"\g<1>25", cover, count=1)
+    elif change == "rename":
+        parts[-1] = cover.replace("lever#Cover", "lever#Lid")
     return text[:start] + "".join(parts) + text[end:]
 
 
 @pytest.mark.parametrize("target", TARGETS)
-@pytest.mark.parametrize("change", ["reorder", "insert", "move"])
+@pytest.mark.parametrize("change", ["reorder", "insert", "delete", "move", "rename"])
 def test_parts_of_an_assembly_are_known_by_their_names(tmp_path: Path, change: str, target: str):
     texts = (assembly(""), assembly(change))
+    assert texts[0] != texts[1]
     before, now = before_and_after(tmp_path / "lever.asmt", tmp_path / f"Lever.{target}", texts)
-    assert {key: now.get(key) for key in before} == before
-    assert (len(now) > len(before)) is (change == "insert")
+    gone = {name for _, name in before.keys() - now.keys()}
+    assert gone == ({"Cover"} if change in ("delete", "rename") else set())
+    assert {key: now[key] for key in before if key[1] not in gone} == {key: ids for key, ids in before.items() if key[1] not in gone}
+    assert {name for _, name in now.keys() - before.keys()} == {"insert": {"Seal"}, "rename": {"Lid"}}.get(change, set())
+    if change == "rename":
+        assert {kind: now[kind, "Lid"] for kind, name in before if name == "Cover"} == {kind: ids for (kind, name), ids in before.items() if name == "Cover"}

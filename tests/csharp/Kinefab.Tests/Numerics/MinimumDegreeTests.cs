@@ -16,7 +16,8 @@ internal sealed class MinimumDegreeTests
         int n = random.Next(1, 25);
         double density = random.NextDouble();
         int[] sizes = Enumerable.Range(0, n).Select(_ => random.Next(0, 7)).ToArray();
-        SortedSet<int>[] graph = Enumerable.Range(0, n).Select(_ => new SortedSet<int>()).ToArray();
+        bool[] waits = Enumerable.Range(0, n).Select(_ => seed % 2 == 1 && random.Next(4) == 0).ToArray();
+        HashSet<int>[] graph = Enumerable.Range(0, n).Select(_ => new HashSet<int>()).ToArray();
         for (int a = 0; a < n; a++)
         {
             for (int b = 0; b < a; b++)
@@ -29,23 +30,25 @@ internal sealed class MinimumDegreeTests
             }
         }
 
-        (int[] order, int[][] later) = ByTheRule(sizes, graph);
-        Assert.That(MinimumDegree.Order(sizes, graph, out int[][] found), Is.EqualTo(order));
+        (int[] order, int[][] later) = ByTheRule(sizes, graph, waits);
+        Assert.That(MinimumDegree.Order(sizes, graph, waits, out int[][] found), Is.EqualTo(order));
         Assert.That(found, Is.EqualTo(later));
     }
 
-    private static (int[] Order, int[][] Later) ByTheRule(int[] sizes, SortedSet<int>[] graph)
+    private static (int[] Order, int[][] Later) ByTheRule(int[] sizes, HashSet<int>[] graph, bool[] waits)
     {
         HashSet<int>[] left = graph.Select(around => new HashSet<int>(around)).ToArray();
+        var waiting = new HashSet<int>(Enumerable.Range(0, sizes.Length).Where(i => waits[i]));
         var nodes = new SortedSet<int>(Enumerable.Range(0, sizes.Length));
         var order = new List<int>();
         var later = new int[sizes.Length][];
         while (nodes.Count > 0)
         {
-            int node = nodes.OrderBy(a => left[a].Sum(b => sizes[b])).ThenBy(a => a).First();
+            int node = nodes.OrderBy(a => left[a].Sum(b => sizes[b]) + (waiting.Contains(a) ? MinimumDegree.Patience : 0)).ThenBy(a => a).First();
             nodes.Remove(node);
             order.Add(node);
             later[node] = left[node].Order().ToArray();
+            waiting.ExceptWith(later[node]);
             foreach (int a in later[node])
             {
                 left[a].UnionWith(later[node]);

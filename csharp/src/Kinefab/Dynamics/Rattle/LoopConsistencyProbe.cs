@@ -159,11 +159,11 @@ internal sealed class LoopConsistencyProbe
         double[] before = Rates();
         DelassusMatrix<ScalarLane>.Assemble(_batch, LetterShare, LetterShare);
         _batch.ActiveSet?.AddToDiagonal(true);
-        BlockCholesky<ScalarLane>.Factor(_batch.Shape.Pattern, _batch.Matrix);
+        DelassusMatrix<ScalarLane>.Factor(_batch);
         for (int i = 0; i < LetterProjections; i++)
         {
             Impulses<ScalarLane>.NegativeSpeeds(_batch, false);
-            BlockCholesky<ScalarLane>.Solve(_batch.Shape.Pattern, _batch.Matrix, _batch.Work.Solution);
+            DelassusMatrix<ScalarLane>.Solve(_batch, _batch.Work.Solution);
             Impulses<ScalarLane>.Apply(_batch, _batch.Work.Solution);
         }
 
@@ -237,7 +237,7 @@ internal sealed class LoopConsistencyProbe
                 return 0;
             }
 
-            BlockCholesky<ScalarLane>.Solve(_batch.Shape.Pattern, _batch.Matrix, _batch.Work.Solution);
+            DelassusMatrix<ScalarLane>.Solve(_batch, _batch.Work.Solution);
             Impulses<ScalarLane>.Apply(_batch, _batch.Work.Solution);
         }
 
@@ -270,7 +270,7 @@ internal sealed class LoopConsistencyProbe
                 _batch.Work.Solution[row] = -_batch.Work.Error[row];
             }
 
-            BlockCholesky<ScalarLane>.Solve(_batch.Shape.Pattern, _batch.Matrix, _batch.Work.Solution);
+            DelassusMatrix<ScalarLane>.Solve(_batch, _batch.Work.Solution);
             Impulses<ScalarLane>.Apply(_batch, _batch.Work.Solution);
         }
     }

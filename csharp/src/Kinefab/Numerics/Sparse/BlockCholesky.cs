@@ -3,8 +3,8 @@ using System.Runtime.CompilerServices;
 namespace Kinefab.Numerics;
 
 /// <summary>
-/// A = G G^T in place for symmetric positive definite block-sparse matrices of one pattern, several at a time in lanes.
-/// Number i of the pattern stands at i * width in the array. The factor's diagonal is stored inverted. The first five rows
+/// A = G S G^T in place for symmetric block-sparse matrices of one pattern, several at a time in lanes; S is 1 for the rows of
+/// positive nodes, -1 for those of negative ones. Number i of the pattern stands at i * width in the array. The factor's diagonal is stored inverted. The first five rows
 /// of a node, those of a hinge, go through registers; the order of operations is the same for all sizes.
 /// </summary>
 internal static class BlockCholesky<V>
@@ -26,6 +26,11 @@ internal static class BlockCholesky<V>
         {
             int n = column.Size;
             int diagonal = column.Diagonal * w;
+            if (column.IsNegative)
+            {
+                Negate(a, diagonal, n * n);
+            }
+
             FactorDiagonal(a, diagonal, n);
             BlockPattern.Block[] below = column.Below;
             int product = 0;
@@ -35,6 +40,12 @@ internal static class BlockCholesky<V>
                 Forward(a, diagonal, a, x, n, below[i].Size);
                 for (int k = 0; k <= i; k++)
                 {
+                    if (column.IsNegative)
+                    {
+                        AddProduct(a, column.Products[product++] * w, x, below[i].Size, below[k].Offset * w, k < i ? below[k].Size : Triangle, n);
+                        continue;
+                    }
+
                     SubtractProduct(a, column.Products[product++] * w, x, below[i].Size, a, below[k].Offset * w, k < i ? below[k].Size : Triangle, n);
                 }
             }
@@ -49,6 +60,11 @@ internal static class BlockCholesky<V>
         foreach (BlockPattern.Column column in columns)
         {
             Forward(a, column.Diagonal * w, b, column.Row * w, column.Size, 1);
+            if (column.IsNegative)
+            {
+                Negate(b, column.Row * w, column.Size);
+            }
+
             foreach (BlockPattern.Block block in column.Below)
             {
                 SubtractProduct(b, block.Row * w, column.Row * w, 1, a, block.Offset * w, block.Size, column.Size);
@@ -58,12 +74,30 @@ internal static class BlockCholesky<V>
         for (int turn = columns.Length - 1; turn >= 0; turn--)
         {
             BlockPattern.Column column = columns[turn];
+            if (column.IsNegative)
+            {
+                Negate(b, column.Row * w, column.Size);
+            }
+
             foreach (BlockPattern.Block block in column.Below)
             {
                 SubtractTransposed(a, block.Offset * w, block.Size, column.Size, b, block.Row * w, column.Row * w);
             }
 
             Backward(a, column.Diagonal * w, b, column.Row * w, column.Size);
+            if (column.IsNegative)
+            {
+                Negate(b, column.Row * w, column.Size);
+            }
+        }
+    }
+
+    private static void Negate(double[] a, int at, int count)
+    {
+        int w = Lane<V>.Width;
+        for (int end = at + count * w; at < end; at += w)
+        {
+            (Lane<V>.Splat(0) - Lane<V>.Load(a, at)).Store(a, at);
         }
     }
 
@@ -269,6 +303,27 @@ internal static class BlockCholesky<V>
                 {
                     (Lane<V>.Load(b, to) - xt * Lane<V>.Load(a, cell)).Store(b, to);
                 }
+            }
+        }
+    }
+
+    // C += X Y^T, otherwise as above. Negative columns are few.
+    private static void AddProduct(double[] a, int c, int x, int m, int y, int k, int n)
+    {
+        int w = Lane<V>.Width;
+        int columns = k == Triangle ? m : k;
+        for (int i = 0; i < m; i++, x += n * w, c += columns * w)
+        {
+            int end = k == Triangle ? i + 1 : k;
+            for (int j = 0; j < end; j++)
+            {
+                Lane<V> s = Lane<V>.Load(a, c + j * w);
+                for (int t = 0; t < n; t++)
+                {
+                    s += Lane<V>.Load(a, x + t * w) * Lane<V>.Load(a, y + (j * n + t) * w);
+                }
+
+                s.Store(a, c + j * w);
             }
         }
     }

@@ -4,8 +4,9 @@ using System.Collections.Generic;
 namespace Kinefab.Numerics;
 
 /// <summary>
-/// Where the blocks of a symmetric block-sparse matrix and of its Cholesky factor lie in one array, and the factor's
-/// order of elimination. Blocks are dense and row-major; a diagonal block uses its lower triangle; a block below it
+/// Where the blocks of a symmetric block-sparse matrix and of its factor lie in one array, and the factor's order of
+/// elimination. The matrix is positive definite or, with negative nodes, quasi-definite: [P, B; B^T, -N] with P and N positive
+/// definite, which has a factor L D L^T in every order (Vanderbei 1995). Blocks are dense and row-major; a diagonal block uses its lower triangle; a block below it
 /// couples the rows of a later node with the columns of an earlier one. Built once for a structure, then only read.
 /// </summary>
 internal sealed class BlockPattern
@@ -13,8 +14,9 @@ internal sealed class BlockPattern
     /// <summary>One column of the factor: a node, and the blocks that couple it to later nodes.</summary>
     internal sealed class Column
     {
-        public Column(int size, int row, int diagonal, Block[] below, int[] products)
+        public Column(int size, int row, int diagonal, bool isNegative, Block[] below, int[] products)
         {
+            IsNegative = isNegative;
             Size = size;
             Row = row;
             Diagonal = diagonal;
@@ -30,6 +32,9 @@ internal sealed class BlockPattern
 
         /// <summary>Offset of the diagonal block.</summary>
         public int Diagonal { get; }
+
+        /// <summary>Whether its pivots are negative.</summary>
+        public bool IsNegative { get; }
 
         /// <summary>Blocks below the diagonal, in order of elimination of their rows' nodes.</summary>
         public Block[] Below { get; }
@@ -55,6 +60,7 @@ internal sealed class BlockPattern
         public int Offset { get; }
     }
 
+    private readonly int _positive;
     private readonly int[] _turn;
     private readonly int[] _diagonal;
     private readonly Dictionary<(int Row, int Column), int> _below = new();
@@ -63,12 +69,23 @@ internal sealed class BlockPattern
     /// <param name="sizes">Rows of each node.</param>
     /// <param name="couplings">Pairs of nodes whose block is not zero; order and repeats do not matter.</param>
     public BlockPattern(int[] sizes, IEnumerable<(int A, int B)> couplings)
+        : this(sizes, couplings, sizes.Length, new bool[sizes.Length])
+    {
+    }
+
+    /// <summary>The same of a quasi-definite matrix.</summary>
+    /// <param name="sizes">Rows of each node.</param>
+    /// <param name="couplings">Pairs of nodes whose block is not zero; order and repeats do not matter.</param>
+    /// <param name="positive">How many nodes are positive; those behind them are negative.</param>
+    /// <param name="waits">Nodes that wait for a neighbour's elimination, see <see cref="MinimumDegree"/>.</param>
+    public BlockPattern(int[] sizes, IEnumerable<(int A, int B)> couplings, int positive, bool[] waits)
     {
         int n = sizes.Length;
-        var neighbours = new SortedSet<int>[n];
+        _positive = positive;
+        var neighbours = new HashSet<int>[n];
         for (int i = 0; i < n; i++)
         {
-            neighbours[i] = new SortedSet<int>();
+            neighbours[i] = new HashSet<int>();
         }
 
         foreach ((int a, int b) in couplings)
@@ -80,7 +97,7 @@ internal sealed class BlockPattern
             }
         }
 
-        int[] order = MinimumDegree.Order(sizes, neighbours, out int[][] later);
+        int[] order = MinimumDegree.Order(sizes, neighbours, waits, out int[][] later);
         _turn = new int[n];
         for (int turn = 0; turn < n; turn++)
         {
@@ -149,6 +166,6 @@ internal sealed class BlockPattern
             }
         }
 
-        return new Column(sizes[node], Rows[node], _diagonal[node], below, products);
+        return new Column(sizes[node], Rows[node], _diagonal[node], node >= _positive, below, products);
     }
 }

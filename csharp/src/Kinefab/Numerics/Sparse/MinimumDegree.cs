@@ -7,22 +7,35 @@ namespace Kinefab.Numerics;
 /// Minimum-degree elimination order of a symmetric sparse matrix of blocks: at each turn the node goes whose neighbours
 /// hold the fewest rows, ties by index, and its neighbours become neighbours of each other. A tree has no fill in it.
 /// Source: Tinney and Walker 1967, scheme 2.
+/// A node may wait: its own block is too weak a pivot until a neighbour has gone and added to it, so it counts as
+/// <see cref="Patience"/> rows dearer until then. A few weak nodes around one neighbour so go after it; many, of which that
+/// would make one dense block, still go before it.
 /// </summary>
 internal static class MinimumDegree
 {
+    /// <summary>Rows by which a waiting node's degree counts more.</summary>
+    public const int Patience = 24;
+
     /// <summary>Orders the nodes and tells, for each, which later nodes it is coupled to when its turn comes.</summary>
     /// <param name="sizes">Rows of each node's block.</param>
     /// <param name="neighbours">For each node its neighbours, symmetric, without itself; used up by the elimination.</param>
+    /// <param name="waits">Nodes that wait for a neighbour to go.</param>
     /// <param name="later">For each node its neighbours at its turn, in order of index.</param>
     /// <returns>The nodes in order of elimination.</returns>
-    public static int[] Order(int[] sizes, SortedSet<int>[] neighbours, out int[][] later)
+    public static int[] Order(int[] sizes, HashSet<int>[] neighbours, bool[] waits, out int[][] later)
     {
         int n = sizes.Length;
         var degree = new int[n];
+        var isWaiting = (bool[])waits.Clone();
         var queue = new SortedSet<(int Degree, int Node)>();
         for (int i = 0; i < n; i++)
         {
-            degree[i] = Degree(i);
+            degree[i] = isWaiting[i] ? Patience : 0;
+            foreach (int a in neighbours[i])
+            {
+                degree[i] += sizes[a];
+            }
+
             queue.Add((degree[i], i));
         }
 
@@ -35,6 +48,7 @@ internal static class MinimumDegree
             order[turn] = node;
             var around = new int[neighbours[node].Count];
             neighbours[node].CopyTo(around);
+            Array.Sort(around);
             later[node] = around;
             if (around.Length == n - turn - 1)
             {
@@ -45,31 +59,25 @@ internal static class MinimumDegree
 
             foreach (int a in around)
             {
-                neighbours[a].Remove(node);
-                neighbours[a].UnionWith(around);
-                neighbours[a].Remove(a);
-            }
-
-            foreach (int a in around)
-            {
                 queue.Remove((degree[a], a));
-                degree[a] = Degree(a);
+                neighbours[a].Remove(node);
+                degree[a] -= sizes[node] + (isWaiting[a] ? Patience : 0);
+                isWaiting[a] = false;
+                foreach (int b in around)
+                {
+                    if (b != a && neighbours[a].Add(b))
+                    {
+                        degree[a] += sizes[b];
+                    }
+                }
+
                 queue.Add((degree[a], a));
             }
+
+            neighbours[node].Clear();
         }
 
         return order;
-
-        int Degree(int node)
-        {
-            int rows = 0;
-            foreach (int a in neighbours[node])
-            {
-                rows += sizes[a];
-            }
-
-            return rows;
-        }
     }
 
     // Among nodes that are all neighbours, the one of most rows has the least degree, whatever has gone before.

@@ -29,12 +29,39 @@ internal sealed class Island
         public readonly int Block;
     }
 
-    // A body of n joints couples n^2 pairs of them: the pattern is built when it is first asked for, since Unity's solver, and an
-    // island that is only looked at for loops, do without.
+    /// <summary>A hub's part of the rows of a block: 6 numbers a row, at Block in the matrix, where the hub's rows come first or the block's.</summary>
+    internal readonly struct HubLink
+    {
+        public HubLink(int node, int side, int hub, bool isHubLater, int block)
+        {
+            Node = node;
+            Side = side;
+            Hub = hub;
+            IsHubLater = isHubLater;
+            Block = block;
+        }
+
+        public readonly int Node;
+        public readonly int Side;
+
+        /// <summary>Index in <see cref="Hubs"/>.</summary>
+        public readonly int Hub;
+
+        /// <summary>Whether the block's rows are the hub's and its columns the row block's; else the other way round.</summary>
+        public readonly bool IsHubLater;
+        public readonly int Block;
+    }
+
+    // n blocks that touch a body are n^2 / 2 pairs. With as many it pays to keep the body's own six unknowns in the matrix.
+    private const int MostEliminated = 16;
+    private const int HubRows = 6;
+
+    // The pattern is built when it is first asked for, since Unity's solver, and an island that is only looked at for loops, do without.
     private readonly int[] _sizes;
     private readonly List<(int Node, int Side)>[] _touching;
     private BlockPattern? _pattern;
     private Link[]? _links;
+    private HubLink[]? _hubLinks;
     private bool[]? _isAngular;
 
     /// <param name="bodies">Index in the mechanism (or Joint.World) of each body, the moving ones first.</param>
@@ -62,6 +89,7 @@ internal sealed class Island
         for (int n = 0; n < blocks.Length; n++)
         {
             sizes[n] = blocks[n].Rows;
+            RowCount += sizes[n];
             HasAssembledRows |= blocks[n].IsAssembled;
             ScalarCount += blocks[n].ScalarCount;
             for (int side = 0; side < blocks[n].Bodies.Length; side++)
@@ -85,6 +113,16 @@ internal sealed class Island
         MeanRateBodies = FindMeanRate(blocks, movingBodies);
         _sizes = sizes;
         _touching = touching;
+        var hubs = new List<int>();
+        for (int b = 0; b < movingBodies; b++)
+        {
+            if (touching[b].Count > MostEliminated)
+            {
+                hubs.Add(b);
+            }
+        }
+
+        Hubs = hubs.ToArray();
     }
 
     /// <summary>Index in the mechanism (or Joint.World) of each of the island's bodies, the moving ones first.</summary>
@@ -100,9 +138,24 @@ internal sealed class Island
 
     public RowBlock[] Blocks { get; }
 
-    public BlockPattern Pattern => _pattern ??= new BlockPattern(_sizes, Couplings(_touching));
+    /// <summary>Rows of all blocks.</summary>
+    public int RowCount { get; }
 
+    /// <summary>
+    /// Moving bodies that so many blocks touch that they stay in the matrix. Instead of J M^-1 J^T over the hubs there is
+    /// [., J W; W^T J^T, -1] with W W^T = M^-1, which has that as its Schur complement.
+    /// </summary>
+    public int[] Hubs { get; }
+
+    public bool IsHub(int body) => Hubs.Length > 0 && Array.BinarySearch(Hubs, body) >= 0;
+
+    /// <summary>The blocks in their order, then the hubs in theirs.</summary>
+    public BlockPattern Pattern => _pattern ??= MakePattern();
+
+    /// <summary>The couplings over bodies that are no hubs.</summary>
     public Link[] Links => _links ??= MakeLinks(_touching, Pattern);
+
+    public HubLink[] HubLinks => _hubLinks ??= MakeHubLinks(Pattern);
 
     /// <summary>Whether nothing but the bodies' own forces does work on them: no scalar row, no kinematic body.</summary>
     public bool IsWorkless { get; }
@@ -125,7 +178,7 @@ internal sealed class Island
     public bool IsInconsistent => Loops == LoopConsistency.Inconsistent;
 
     /// <summary>Whether a row, in the vectors' order, locks an angle.</summary>
-    public bool[] IsAngular => _isAngular ??= FindAngular(Blocks, Pattern);
+    public bool[] IsAngular => _isAngular ??= FindAngular();
 
     /// <summary>Rows with a scalar row, of all blocks.</summary>
     public int ScalarCount { get; }
@@ -212,27 +265,54 @@ internal sealed class Island
         return frozen.ToArray();
     }
 
-    private static bool[] FindAngular(RowBlock[] blocks, BlockPattern pattern)
+    private bool[] FindAngular()
     {
-        var angular = new bool[pattern.RowCount];
-        for (int n = 0; n < blocks.Length; n++)
+        var angular = new bool[RowCount];
+        int row = 0;
+        foreach (RowBlock block in Blocks)
         {
-            for (int i = 0; i < blocks[n].Rows; i++)
+            for (int i = 0; i < block.Rows; i++)
             {
-                angular[pattern.Rows[n] + i] = blocks[n].IsLockedAngle(i);
+                angular[row++] = block.IsLockedAngle(i);
             }
         }
 
         return angular;
     }
 
-    private static IEnumerable<(int A, int B)> Couplings(List<(int Node, int Side)>[] touching)
+    private BlockPattern MakePattern()
     {
-        foreach (List<(int Node, int Side)> blocks in touching)
+        var sizes = new int[Blocks.Length + Hubs.Length];
+        _sizes.CopyTo(sizes, 0);
+        for (int hub = Blocks.Length; hub < sizes.Length; hub++)
         {
+            sizes[hub] = HubRows;
+        }
+
+        // What touches hubs alone has nothing on its diagonal but a compliance.
+        var waits = new bool[sizes.Length];
+        for (int n = 0; n < Blocks.Length && Hubs.Length > 0; n++)
+        {
+            waits[n] = Array.TrueForAll(Blocks[n].Bodies, body => body >= MovingBodies || IsHub(body));
+        }
+
+        return new BlockPattern(sizes, Couplings(), Blocks.Length, waits);
+    }
+
+    private IEnumerable<(int A, int B)> Couplings()
+    {
+        for (int body = 0; body < _touching.Length; body++)
+        {
+            List<(int Node, int Side)> blocks = _touching[body];
+            int hub = Array.BinarySearch(Hubs, body);
             for (int i = 0; i < blocks.Count; i++)
             {
-                for (int k = 0; k < i; k++)
+                if (hub >= 0)
+                {
+                    yield return (Blocks.Length + hub, blocks[i].Node);
+                }
+
+                for (int k = 0; k < i && hub < 0; k++)
                 {
                     yield return (blocks[i].Node, blocks[k].Node);
                 }
@@ -240,13 +320,29 @@ internal sealed class Island
         }
     }
 
-    private static Link[] MakeLinks(List<(int Node, int Side)>[] touching, BlockPattern pattern)
+    private HubLink[] MakeHubLinks(BlockPattern pattern)
+    {
+        var links = new List<HubLink>();
+        for (int hub = 0; hub < Hubs.Length; hub++)
+        {
+            int node = Blocks.Length + hub;
+            foreach ((int block, int side) in _touching[Hubs[hub]])
+            {
+                bool isHubLater = pattern.IsBefore(block, node);
+                links.Add(new HubLink(block, side, hub, isHubLater, isHubLater ? pattern.Below(node, block) : pattern.Below(block, node)));
+            }
+        }
+
+        return links.ToArray();
+    }
+
+    private Link[] MakeLinks(List<(int Node, int Side)>[] touching, BlockPattern pattern)
     {
         var links = new List<Link>();
         for (int body = 0; body < touching.Length; body++)
         {
             List<(int Node, int Side)> blocks = touching[body];
-            for (int i = 0; i < blocks.Count; i++)
+            for (int i = 0; i < blocks.Count && !IsHub(body); i++)
             {
                 for (int k = 0; k < i; k++)
                 {

@@ -12,7 +12,7 @@ internal sealed class Workspace<V>
     public Workspace(Island shape)
     {
         int w = Lane<V>.Width;
-        int rows = shape.Pattern.RowCount;
+        int rows = shape.RowCount;
         int sides = 0;
         foreach (RowBlock block in shape.Blocks)
         {
@@ -27,6 +27,12 @@ internal sealed class Workspace<V>
         Move = new double[rows * w];
         PositionImpulses = new double[rows * w];
         TotalImpulses = new double[rows * w];
+        HubResponse = new double[rows * w];
+        HubRoots = new double[11 * shape.Hubs.Length * w];
+        int unknowns = shape.Hubs.Length > 0 ? shape.Pattern.RowCount * w : 0;
+        Right = new double[unknowns];
+        Unknowns = new double[unknowns];
+        Correction = new double[unknowns];
         Active = new double[w];
         Moved = new double[w];
         MaxError = new double[w];
@@ -61,6 +67,19 @@ internal sealed class Workspace<V>
 
     /// <summary>Impulses of the whole step.</summary>
     public double[] TotalImpulses { get; }
+
+    /// <summary>What each row has of J M^-1 J^T over hubs on the diagonal.</summary>
+    public double[] HubResponse { get; }
+
+    /// <summary>Of each hub a root of its inverse mass, and of its inverse inertia in the world the three columns of one and what is rounding.</summary>
+    public double[] HubRoots { get; }
+
+    /// <summary>Room to solve with hubs, over the pattern's rows.</summary>
+    public double[] Right { get; }
+
+    public double[] Unknowns { get; }
+
+    public double[] Correction { get; }
 
     /// <summary>1 in lanes that still iterate, else 0.</summary>
     public double[] Active { get; }

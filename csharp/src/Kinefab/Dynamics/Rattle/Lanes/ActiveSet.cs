@@ -230,7 +230,7 @@ internal sealed partial class ActiveSet<V>
                     _batch.Matrix[cell] = 1;
                     break;
                 case ProjectedAs.Rigid:
-                    _batch.Matrix[cell] *= 1 + RigidShare;
+                    _batch.Matrix[cell] = _batch.Matrix[cell] * (1 + RigidShare) + RigidShare * _batch.Work.HubResponse[scalar.Index];
                     break;
                 default:
                     _batch.Matrix[cell] += 1 / (isDrift ? scalar.Theta * scalar.ImplicitDamping : scalar.CorrectionGain);

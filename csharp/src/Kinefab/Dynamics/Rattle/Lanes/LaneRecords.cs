@@ -20,7 +20,7 @@ internal class LaneRecords<V>
         Shape = shape;
         Work = workspace;
         int w = Width;
-        Compliance = new double[shape.Pattern.RowCount * w];
+        Compliance = new double[shape.RowCount * w];
         Members = new int[shape.Bodies.Length * w];
         JointMembers = new int[shape.Blocks.Length * w];
         Bodies = new double[shape.Bodies.Length * BodyLanes.Count * w];
@@ -36,7 +36,8 @@ internal class LaneRecords<V>
         Linear = new double[3 * sides * w];
         Angular = new double[3 * sides * w];
         Matrix = new double[shape.Pattern.Length * w];
-        VelocityImpulses = new double[shape.Pattern.RowCount * w];
+        Assembled = shape.Hubs.Length > 0 ? new double[Matrix.Length] : Array.Empty<double>();
+        VelocityImpulses = new double[shape.RowCount * w];
         if (shape.ScalarCount > 0)
         {
             Scalars = new ScalarRows(shape);
@@ -69,6 +70,9 @@ internal class LaneRecords<V>
 
     /// <summary>A = J M^-1 J^T, then its factor.</summary>
     public double[] Matrix { get; }
+
+    /// <summary>A before it was factored, for the refinement of what is solved with hubs; empty without them.</summary>
+    public double[] Assembled { get; }
 
     /// <summary>Impulses of the velocity projection, by which the next step starts.</summary>
     public double[] VelocityImpulses { get; }
@@ -108,6 +112,7 @@ internal class LaneRecords<V>
         tape.Array(Linear);
         tape.Array(Angular);
         tape.Array(Matrix);
+        tape.Array(Assembled);
         tape.Array(VelocityImpulses);
         tape.Array(Compliance);
         double softStep = CompliantStep;

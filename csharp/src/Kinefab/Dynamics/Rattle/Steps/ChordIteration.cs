@@ -85,14 +85,14 @@ internal static class ChordIteration<V>
         double[] last = batch.Work.LastSolution;
         double[] move = batch.Work.Move;
         Lane<V> rate = Lane<V>.Splat(-1 / h);
-        int length = batch.Shape.Pattern.RowCount * w;
+        int length = batch.Shape.RowCount * w;
         double[] errors = batch.Work.Error;
         for (int i = 0; i < length; i += w)
         {
             (rate * Lane<V>.Load(errors, i)).Store(d, i);
         }
 
-        BlockCholesky<V>.Solve(batch.Shape.Pattern, batch.Matrix, d);
+        DelassusMatrix<V>.Solve(batch, d);
         Lane<V> product = Lane<V>.Splat(0);
         Lane<V> square = Lane<V>.Splat(LeastSquare);
         if (!isFirst)

@@ -148,7 +148,7 @@ internal sealed class ImplicitEulerStep
         _batch.ActiveSet?.WriteRows(false);
         DelassusMatrix<ScalarLane>.Assemble(_batch, Share);
         _batch.ActiveSet?.AddToDiagonal(true);
-        BlockCholesky<ScalarLane>.Factor(_batch.Shape.Pattern, _batch.Matrix);
+        DelassusMatrix<ScalarLane>.Factor(_batch);
     }
 
     // (J M~^-1 J^T) dl = -C / h + J M~^-1 r; dv = M~^-1 (J^T dl - r).
@@ -164,7 +164,7 @@ internal sealed class ImplicitEulerStep
         }
 
         batch.ActiveSet?.ClearAtBound(solution);
-        BlockCholesky<ScalarLane>.Solve(batch.Shape.Pattern, batch.Matrix, solution);
+        DelassusMatrix<ScalarLane>.Solve(batch, solution);
         for (int i = 0; i < solution.Length; i++)
         {
             batch.Work.PositionImpulses[i] += solution[i];

@@ -19,7 +19,7 @@ internal static class InitialVelocityProjection
         RattleStep<ScalarLane>.Factor(batch, false);
         Impulses<ScalarLane>.NegativeSpeeds(batch);
         batch.ActiveSet?.ClearAtBound(blow);
-        BlockCholesky<ScalarLane>.Solve(batch.Shape.Pattern, batch.Matrix, blow);
+        DelassusMatrix<ScalarLane>.Solve(batch, blow);
         Impulses<ScalarLane>.Apply(batch, blow);
         for (int i = 0; i < blow.Length; i++)
         {

@@ -164,13 +164,13 @@ internal sealed class PositionProjection
         double[] solution = _batch.Work.Solution;
         DelassusMatrix<ScalarLane>.Assemble(_batch, _batch.AngularShare);
         _batch.ActiveSet?.AddToDiagonal(false);
-        BlockCholesky<ScalarLane>.Factor(shape.Pattern, _batch.Matrix);
+        DelassusMatrix<ScalarLane>.Factor(_batch);
         for (int i = 0; i < solution.Length; i++)
         {
             solution[i] = -_batch.Work.Error[i];
         }
 
-        BlockCholesky<ScalarLane>.Solve(shape.Pattern, _batch.Matrix, solution);
+        DelassusMatrix<ScalarLane>.Solve(_batch, solution);
         double[] a = _batch.Bodies;
         for (int body = 0; body < shape.MovingBodies; body++)
         {

@@ -182,7 +182,7 @@ internal static class RattleStep<V>
         batch.ActiveSet?.WriteRows(false);
         DelassusMatrix<V>.Assemble(batch, batch.Shape.IsInconsistent && !isDrift ? DelassusMatrix<V>.UnconstrainedShare : batch.AngularShare);
         batch.ActiveSet?.AddToDiagonal(isDrift);
-        BlockCholesky<V>.Factor(batch.Shape.Pattern, batch.Matrix);
+        DelassusMatrix<V>.Factor(batch);
     }
 
     // The projection of the last step leaves the drift's matrix behind, unless a scalar row moved or a spring acts.

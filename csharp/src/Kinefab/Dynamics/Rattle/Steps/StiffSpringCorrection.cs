@@ -87,7 +87,7 @@ internal sealed class StiffSpringCorrection
             Impulses<ScalarLane>.NegativeSpeeds(_batch);
             scalars.AddTargets();
             scalars.SubtractCorrections(sum);
-            BlockCholesky<ScalarLane>.Solve(_batch.Shape.Pattern, _batch.Matrix, solution);
+            DelassusMatrix<ScalarLane>.Solve(_batch, solution);
             Impulses<ScalarLane>.Apply(_batch, solution);
             for (int i = 0; i < sum.Length; i++)
             {

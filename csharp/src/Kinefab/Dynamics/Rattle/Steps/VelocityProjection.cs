@@ -38,7 +38,7 @@ internal static class VelocityProjection<V>
         }
 
         Impulses<V>.NegativeSpeeds(batch);
-        BlockCholesky<V>.Solve(batch.Shape.Pattern, batch.Matrix, batch.Work.Solution);
+        DelassusMatrix<V>.Solve(batch, batch.Work.Solution);
         Copy(batch, batch.Work.Solution, batch.VelocityImpulses);
         Impulses<V>.Apply(batch, batch.VelocityImpulses);
         Refine(batch, h);
@@ -47,7 +47,7 @@ internal static class VelocityProjection<V>
     private static void RunWithActiveSet(LaneBatch<V> batch, double h, double tolerance, ActiveSet<V> scalars)
     {
         scalars.BeginVelocities(tolerance * LimitReach);
-        int length = batch.Shape.Pattern.RowCount;
+        int length = batch.Shape.RowCount;
         for (int n = 0; n < batch.Shape.Blocks.Length; n++)
         {
             Array.Clear(batch.VelocityImpulses, batch.Shape.Pattern.Rows[n], batch.Shape.Blocks[n].BilateralCount);
@@ -58,7 +58,7 @@ internal static class VelocityProjection<V>
             RattleStep<V>.Factor(batch, false);
             Impulses<V>.NegativeSpeeds(batch);
             scalars.AddTargets();
-            BlockCholesky<V>.Solve(batch.Shape.Pattern, batch.Matrix, batch.Work.Solution);
+            DelassusMatrix<V>.Solve(batch, batch.Work.Solution);
             for (int i = 0; i < length; i++)
             {
                 batch.VelocityImpulses[i] += batch.Work.Solution[i];
@@ -159,7 +159,7 @@ internal static class VelocityProjection<V>
     {
         int w = Lane<V>.Width;
         Lane<V> active = Lane<V>.Load(batch.Work.Active, 0);
-        int length = batch.Shape.Pattern.RowCount * w;
+        int length = batch.Shape.RowCount * w;
         for (int i = 0; i < length; i += w)
         {
             Lane<V>.Select(active, Lane<V>.Load(from, i), Lane<V>.Load(to, i)).Store(to, i);

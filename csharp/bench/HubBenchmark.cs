@@ -1,0 +1,60 @@
+using System;
+using System.Diagnostics;
+using System.Globalization;
+using System.Linq;
+using Kinefab.Document;
+using Kinefab.Dynamics;
+using Kinefab.Kinematics;
+using Kinefab.Tests.Dynamics.Rattle;
+using Kinefab.Validation;
+
+namespace Kinefab.Bench;
+
+/// <summary>What many joints on one body, between one pair, on a comb and in a grid of closed cells cost, and how that grows.</summary>
+internal static class HubBenchmark
+{
+    private const double Dt = 1.0 / 50;
+    private const int Runs = 3;
+    private static readonly int[] Sizes = { 512, 1024, 4096, 16384 };
+
+    private static readonly (string Name, Func<SceneDocument, ValidScene, Action> Make)[] Calls =
+    {
+        ("validate", (document, _) => () => SceneValidator.Validate(document)),
+        ("mobility", (_, scene) => () => MobilityAnalysis.Of(Mechanism.Create(scene))),
+        ("unity: create + step", (_, scene) => () => World.Create(scene, SolverKind.Unity).Step(Dt)),
+        ("exact: create + step", (_, scene) => () => World.Create(scene, SolverKind.Exact).Step(Dt)),
+    };
+
+    public static void Run()
+    {
+        Console.WriteLine($"| scene | call | {string.Join(" | ", Sizes.Select(size => $"{size} joints, ms"))} | exponent |");
+        Console.WriteLine($"|---|---|{string.Concat(Sizes.Select(_ => "---|"))}---|");
+        foreach ((string kind, Func<int, SceneDocument> make) in HubScenes.Kinds)
+        {
+            (SceneDocument Document, ValidScene Scene)[] scenes = Sizes.Select(make).Select(document => (document, SceneValidator.Validate(document).Scene!)).ToArray();
+            foreach ((string name, Func<SceneDocument, ValidScene, Action> call) in Calls)
+            {
+                Time(call(scenes[0].Document, scenes[0].Scene));
+                double[] times = scenes.Select(scene => Time(call(scene.Document, scene.Scene))).ToArray();
+                double exponent = Math.Log(times[^1] / times[0]) / Math.Log((double)Sizes[^1] / Sizes[0]);
+                string cells = string.Join(" | ", times.Select(time => time.ToString("F1", CultureInfo.InvariantCulture)));
+                Console.WriteLine(string.Create(CultureInfo.InvariantCulture, $"| {kind} | {name} | {cells} | {exponent:F2} |"));
+                Console.Error.WriteLine(string.Create(CultureInfo.InvariantCulture, $"| {kind} | {name} | {cells} | {exponent:F2} |"));
+            }
+        }
+    }
+
+    // The least of a few: the rest is the compiler's and other programs'.
+    private static double Time(Action call)
+    {
+        double best = double.PositiveInfinity;
+        for (int run = 0; run < Runs; run++)
+        {
+            long before = Stopwatch.GetTimestamp();
+            call();
+            best = Math.Min(best, Stopwatch.GetElapsedTime(before).TotalMilliseconds);
+        }
+
+        return best;
+    }
+}

@@ -23,9 +23,6 @@ internal sealed class StepController
     // Stops in a step after which the rest of it is not tried: the scene cannot be followed, and says so.
     private const int MaxDampedSteps = 8;
 
-    // Largest error of a quaternion's square.
-    private const double MostStretch = 1e-3;
-
     // Largest change of the energy in a step against its kinetic part, where nothing but known forces does work.
     private const double MostEnergyChange = 0.002;
 
@@ -33,17 +30,14 @@ internal sealed class StepController
     private const double MostEnergyGain = 0.005;
 
     private readonly LaneBatch<ScalarLane> _batch;
-    private readonly ImplicitEulerStep _fallback;
+    private readonly Substep _part;
     private readonly PositionProjection _closure;
     private readonly Snapshot _start;
     private readonly Snapshot[] _substepStarts = new Snapshot[MaxDepth - MaxHalvings + 1];
-    private readonly bool[] _converged = new bool[1];
-    private double _substep;
     private int _failures;
     private int _dampedInStep;
     private int _worst;
     private double _worstError;
-    private bool _refinesAfterFailure;
     private bool _isAudited;
     private EnergyAudit _energy;
     private double _dt;
@@ -52,7 +46,7 @@ internal sealed class StepController
     public StepController(LaneBatch<ScalarLane> batch)
     {
         _batch = batch;
-        _fallback = new ImplicitEulerStep(batch);
+        _part = new Substep(batch);
         _closure = new PositionProjection(batch);
         _start = new Snapshot(batch);
         for (int i = 0; i < _substepStarts.Length; i++)
@@ -110,11 +104,11 @@ internal sealed class StepController
     {
         Array.Clear(_batch.Work.TotalImpulses, 0, _batch.Work.TotalImpulses.Length);
         _batch.ActiveSet?.ClearWork();
-        _substep = dt;
+        _part.Begin(dt);
         _tolerance = tolerance;
         _failures = 0;
         _dampedInStep = 0;
-        _refinesAfterFailure = false;
+        _part.IsEager = false;
         _isAudited = EnergyAudit.IsKnown(_batch);
         isMoved |= _batch.ActiveSet != null && _batch.ActiveSet.IsNewlyPassed();
         HasClosed = isMoved && _closure.TryClose(tolerance);
@@ -137,11 +131,11 @@ internal sealed class StepController
         while (!TrySubsteps(dt, halvings, tolerance) || !IsEnergyKept(halvings))
         {
             _start.Restore(_batch);
-            _substep = dt;
+            _part.Begin(dt);
             if (!hasSettled)
             {
                 hasSettled = true;
-                _refinesAfterFailure = true;
+                _part.IsEager = true;
                 CloseInitialState(isMoved);
                 _start.Save(_batch);
                 Audit(dt);
@@ -157,7 +151,7 @@ internal sealed class StepController
         }
 
         cut.Record(halvings, demand);
-        SetSubstep(dt);
+        _part.SetLength(dt);
     }
 
     // Closing what stood open before the step does work on springs.
@@ -209,10 +203,10 @@ internal sealed class StepController
     private bool TrySubsteps(double dt, int halvings, double tolerance)
     {
         double h = dt / (1 << halvings);
-        SetSubstep(h);
+        _part.SetLength(h);
         for (int i = 1 << halvings; i > 0; i--)
         {
-            if (!TryRattle(h, tolerance))
+            if (!_part.TryRattle(h, tolerance))
             {
                 return false;
             }
@@ -238,23 +232,24 @@ internal sealed class StepController
         }
 
         Snapshot start = _substepStarts[depth - MaxHalvings];
-        SetSubstep(h);
+        _part.SetLength(h);
         start.Save(_batch);
-        if (TryRattle(h, tolerance) && IsEnergyKept(depth))
+        if (_part.TryRattle(h, tolerance) && IsEnergyKept(depth))
         {
             return;
         }
 
         start.Restore(_batch);
+        _part.Begin(h);
         if (depth < MaxDepth && _failures++ < MaxFailures)
         {
             Halve(h / 2, depth + 1, tolerance);
             Halve(h / 2, depth + 1, tolerance);
-            SetSubstep(h);
+            _part.SetLength(h);
             return;
         }
 
-        if (TryImplicitEuler(h, tolerance) && IsEnergyKept(depth))
+        if (_part.TryImplicitEuler(h, tolerance) && IsEnergyKept(depth))
         {
             return;
         }
@@ -265,101 +260,9 @@ internal sealed class StepController
         }
 
         start.Restore(_batch);
+        _part.Begin(h);
         _dampedInStep++;
         Damp();
-    }
-
-    private bool TryRattle(double h, double tolerance)
-    {
-        _batch.Work.Active[0] = 1;
-        RattleStep<ScalarLane>.KickAndDrift(_batch, h, tolerance, _converged, _refinesAfterFailure);
-        if (!_converged[0] || (_batch.ActiveSet != null && _batch.ActiveSet.HasMissedEvent(tolerance)))
-        {
-            return false;
-        }
-
-        _batch.ActiveSet?.AddWork();
-        RattleStep<ScalarLane>.Build(_batch);
-        _batch.Work.Active[0] = 1;
-        VelocityProjection<ScalarLane>.Run(_batch, h, tolerance);
-        Finish();
-        GeometricStiffness<ScalarLane>.Estimate(_batch, _batch.VelocityImpulses, h / 2);
-        return IsFinite();
-    }
-
-    private bool TryImplicitEuler(double h, double tolerance)
-    {
-        if (!_fallback.TrySolve(h, tolerance))
-        {
-            return false;
-        }
-
-        _batch.ActiveSet?.AddWork();
-        RattleStep<ScalarLane>.Build(_batch);
-        GeometricStiffness<ScalarLane>.Estimate(_batch, _batch.Work.PositionImpulses, h);
-        _batch.Work.Active[0] = 1;
-        VelocityProjection<ScalarLane>.Run(_batch, 0, tolerance);
-        Finish();
-
-        // What implicit Euler leaves behind is no guess for RATTLE.
-        Array.Clear(_batch.VelocityImpulses, 0, _batch.VelocityImpulses.Length);
-        return IsFinite();
-    }
-
-    private void Finish()
-    {
-        RattleStep<ScalarLane>.Accept(_batch);
-        AssembledRows<ScalarLane>.FinishAngles(_batch);
-        for (int i = 0; i < _batch.Work.TotalImpulses.Length; i++)
-        {
-            _batch.Work.TotalImpulses[i] += _batch.Work.PositionImpulses[i] + _batch.VelocityImpulses[i];
-        }
-    }
-
-    // Impulses are proportional to the part's length; the guess is scaled to it.
-    private void SetSubstep(double h)
-    {
-        if (_substep > 0 && _substep != h)
-        {
-            double factor = h / _substep;
-            for (int i = 0; i < _batch.VelocityImpulses.Length; i++)
-            {
-                _batch.VelocityImpulses[i] *= factor;
-            }
-
-            _batch.Scalars?.ScaleHistory(factor);
-        }
-
-        _substep = h;
-    }
-
-    private bool IsFinite()
-    {
-        for (int body = 0; body < _batch.Shape.MovingBodies; body++)
-        {
-            int o = LaneBatch<ScalarLane>.Body(body, 0);
-            for (int i = 0; i < BodyLanes.EndX; i++)
-            {
-                if (!(Math.Abs(_batch.Bodies[o + i]) < 1e100))
-                {
-                    return false;
-                }
-            }
-
-            // A turn too wide for the series leaves a quaternion that is none.
-            double norm = 0;
-            for (int i = BodyLanes.Q; i < BodyLanes.EndX; i++)
-            {
-                norm += _batch.Bodies[o + i] * _batch.Bodies[o + i];
-            }
-
-            if (!(Math.Abs(norm - 1) < MostStretch))
-            {
-                return false;
-            }
-        }
-
-        return true;
     }
 
     // The poses stay for this substep and the motion slows down, so that a state that no method can leave comes to rest.

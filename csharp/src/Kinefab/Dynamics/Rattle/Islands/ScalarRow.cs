@@ -76,7 +76,13 @@ internal struct ScalarRow
     /// </summary>
     public double Allowed;
 
-    /// <summary>Speed of the row at the start of the step.</summary>
+    /// <summary>
+    /// Whether a limit is not reached at the start of the step, or has no row there, as in the middle of a cone: the drift is not held by it,
+    /// and where it reaches it, see <see cref="Substep"/>, the joint strikes.
+    /// </summary>
+    public bool IsApart;
+
+    /// <summary>Speed of the row at the start of the step; in an impact, before it.</summary>
     public double StartSpeed;
 
     public double Theta;

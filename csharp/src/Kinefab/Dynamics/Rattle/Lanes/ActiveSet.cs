@@ -23,6 +23,9 @@ internal sealed partial class ActiveSet<V>
     // A compliance beyond this share of the row's response stands for a spring that hardly acts.
     private const double LeastResponse = 1e-200;
 
+    /// <summary>A limit this many tolerances away counts as reached.</summary>
+    public const double Reach = 10;
+
     /// <summary>A limit that is passed by less at a step's start is the drift's to close, m or rad; one by more, that closing the pose left there, stays.</summary>
     public const double MostClosedByDrift = 1e-6;
 
@@ -36,6 +39,9 @@ internal sealed partial class ActiveSet<V>
         _scalars = scalars;
         _rows = scalars.Rows;
     }
+
+    /// <summary>Whether limits that a drift has to reach first are left to <see cref="Substep"/>, or held from the start of the step on.</summary>
+    public bool LocatesEvents { get; set; }
 
     /// <summary>
     /// Whether the matrix is still the drift's: the projection before it held the same rows, and no spring is to act.
@@ -53,8 +59,9 @@ internal sealed partial class ActiveSet<V>
 
     /// <summary>Takes the scalar rows' constants for a step from the rows at the start pose, guesses states, writes J.</summary>
     /// <param name="h">Step, s.</param>
+    /// <param name="tolerance">Largest C, metres or radians.</param>
     /// <param name="isImplicit">Whether the whole impulse acts before the drift (implicit Euler).</param>
-    public void Begin(double h, bool isImplicit)
+    public void Begin(double h, double tolerance, bool isImplicit)
     {
         for (int i = 0; i < _rows.Length; i++)
         {
@@ -65,8 +72,9 @@ internal sealed partial class ActiveSet<V>
             scalar.PendingImpulse = 0;
             scalar.Theta = isImplicit ? 1 : 0.5;
             scalar.Kind = scalar.FindKind();
+            scalar.IsApart = LocatesEvents && (!scalar.IsActive || (scalar.Kind == RowKind.Limit && scalar.StartError > Reach * tolerance));
             scalar.Allowed = scalar.Kind == RowKind.Limit && scalar.StartError < -MostClosedByDrift ? scalar.StartError : 0;
-            if (scalar.Kind == RowKind.None)
+            if (scalar.Kind == RowKind.None || scalar.IsApart)
             {
                 scalar.State = RowState.AtBound;
                 scalar.ImpulseFirstHalf = 0;

@@ -32,7 +32,7 @@ internal static class RattleStep<V>
         }
 
         batch.CompliantStep = batch.Shape.IsInconsistent ? h : 0;
-        batch.ActiveSet?.Begin(h, false);
+        batch.ActiveSet?.Begin(h, tolerance, false);
         Kick(batch, h / 2);
         Array.Copy(batch.VelocityImpulses, batch.Work.PositionImpulses, batch.VelocityImpulses.Length);
         Impulses<V>.Apply(batch, batch.Work.PositionImpulses);

@@ -11,9 +11,6 @@ namespace Kinefab.Dynamics.Rattle;
 internal static class VelocityProjection<V>
     where V : struct, ILane<V>
 {
-    // A limit this many tolerances away counts as reached.
-    private const double LimitReach = 10;
-
     // Speed that the compliance may leave a row, by the step: a small share of what gravity gives, m/s^2 and rad/s^2.
     private const double MostLeft = 3e-3;
 
@@ -28,6 +25,7 @@ internal static class VelocityProjection<V>
         RattleStep<V>.Kick(batch, h / 2);
         if (batch.ActiveSet != null)
         {
+            batch.ActiveSet.BeginVelocities(tolerance * ActiveSet<V>.Reach);
             RunWithActiveSet(batch, h, tolerance, batch.ActiveSet);
             return;
         }
@@ -44,9 +42,23 @@ internal static class VelocityProjection<V>
         Refine(batch, h);
     }
 
+    /// <summary>
+    /// The blow of the limits that the drift came to, after <see cref="Run"/>; leaves its impulses in place of the projection's. False when it
+    /// came to none.
+    /// </summary>
+    public static bool Strike(LaneBatch<V> batch, double tolerance)
+    {
+        if (batch.ActiveSet == null || !batch.ActiveSet.BeginImpact(tolerance * ActiveSet<V>.Reach))
+        {
+            return false;
+        }
+
+        RunWithActiveSet(batch, 0, tolerance, batch.ActiveSet);
+        return true;
+    }
+
     private static void RunWithActiveSet(LaneBatch<V> batch, double h, double tolerance, ActiveSet<V> scalars)
     {
-        scalars.BeginVelocities(tolerance * LimitReach);
         int length = batch.Shape.Pattern.RowCount;
         for (int n = 0; n < batch.Shape.Blocks.Length; n++)
         {
@@ -65,7 +77,7 @@ internal static class VelocityProjection<V>
             }
 
             Impulses<V>.Apply(batch, batch.Work.Solution);
-            if (!scalars.UpdateVelocities(pass, tolerance * LimitReach))
+            if (!scalars.UpdateVelocities(pass, tolerance * ActiveSet<V>.Reach))
             {
                 Refine(batch, h);
                 return;

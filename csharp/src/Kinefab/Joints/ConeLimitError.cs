@@ -10,13 +10,18 @@ namespace Kinefab.Joints;
 /// </summary>
 internal static class ConeLimitError
 {
+    // Where the search for the nearest point stops.
+    private const double Coarse = 1e-4;
+    private const double Exact = 1e-15;
+
     /// <summary>False when the swing is inside the cone shrunk by the padding.</summary>
     /// <param name="limit">Half angles, radians.</param>
     /// <param name="padding">Radians.</param>
     /// <param name="swing">Rotation without twist.</param>
+    /// <param name="isExact">Whether the nearest point is found to rounding, not as coarsely as PhysX finds it: there it jumps.</param>
     /// <param name="axis">Unit axis in frame 0 about which a positive rotation leads outwards.</param>
     /// <param name="error">Positive inside.</param>
-    public static bool Find(in ConeLimit limit, double padding, Quaterniond swing, out Vector3d axis, out double error)
+    public static bool Find(in ConeLimit limit, double padding, Quaterniond swing, bool isExact, out Vector3d axis, out double error)
     {
         axis = Vector3d.Zero;
         error = 0;
@@ -29,7 +34,7 @@ internal static class ConeLimitError
             return false;
         }
 
-        NearestOnEllipse(y, z, limit.Y, limit.Z, out double py, out double pz);
+        NearestOnEllipse(y, z, limit.Y, limit.Z, isExact ? Exact : Coarse, out double py, out double pz);
         var radius = new Vector3d(0, Math.Tan(py / 4), Math.Tan(pz / 4));
         var direction = new Vector3d(0, py / (limit.Y * limit.Y), pz / (limit.Z * limit.Z));
         error = AxisAndError(radius, direction, swing * Vector3d.UnitX, out axis);
@@ -57,10 +62,9 @@ internal static class ConeLimitError
 
     // Newton on the Lagrange multiplier; PhysX's start and its coarse stop are kept (PsMathUtils.h, ellipseClamp), since
     // the point it stops at is the one its joint uses.
-    private static void NearestOnEllipse(double y, double z, double radiusY, double radiusZ, out double py, out double pz)
+    private static void NearestOnEllipse(double y, double z, double radiusY, double radiusZ, double converged, out double py, out double pz)
     {
-        const int maxIterations = 20;
-        const double converged = 1e-4;
+        int maxIterations = converged == Coarse ? 20 : 60;
         const double tiny = 1e-6;
         if (radiusY >= radiusZ ? Math.Abs(z) < tiny : Math.Abs(y) < tiny)
         {

@@ -5,7 +5,7 @@ namespace Kinefab.Joints;
 
 /// <summary>
 /// A scalar coordinate of a joint: Sign times frame 1's offset along, or angle about, an axis of frame 0, metres or
-/// radians. An angle is exact while the joint turns about that axis alone.
+/// radians. An angle is the twist about that axis: what is left of a ball's turn when the axis is brought back along the shortest arc.
 /// </summary>
 internal readonly struct CoordinateAxisMap
 {
@@ -26,7 +26,8 @@ internal readonly struct CoordinateAxisMap
 
     /// <summary>
     /// q and the row of its rate: qdot = row.Velocity(v0, w0, v1, w1).
-    /// Linear: q = s c.p_i, J = -s (a, r0 x a; a, r1 x a). Angular: q = 2 s atan2(c.q_i, c.q_w), J = -s (0, a; 0, a).
+    /// Linear: q = s c.p_i, J = -s (a, r0 x a; a, r1 x a). Angular: q = 2 s atan2(c.q_i, c.q_w),
+    /// J = -s (0, g; 0, g), g of <see cref="SwingTwist.TwistGradient"/>, which of a hinge is its axis.
     /// </summary>
     /// <param name="body0">Pose of the joint's body 0.</param>
     /// <param name="body1">Pose of the joint's body 1.</param>
@@ -48,12 +49,18 @@ internal readonly struct CoordinateAxisMap
         }
 
         int axis = Axis - CoordinateAxis.AngularX;
-        row.Angular0 = f.Axis0(axis) * -Sign;
+        row.Angular0 = (Joint is RevoluteJoint ? f.Axis0(axis) : Gradient(f, axis)) * -Sign;
         row.Angular1 = row.Angular0;
         row.Flags = RowFlags.Angular;
         Quaterniond q = f.Relative.Rotation;
         double angle = Sign * 2 * Math.Atan2(q.Vector[axis], q.W);
         row.GeometricError = SwingTwist.Nearest(angle, near);
         return row.GeometricError;
+    }
+
+    private static Vector3d Gradient(in JointFrames f, int axis)
+    {
+        f.Axes1(out Vector3d x1, out Vector3d y1, out Vector3d z1);
+        return SwingTwist.TwistGradient(f.Axis0(axis), axis == 0 ? x1 : axis == 1 ? y1 : z1);
     }
 }

@@ -220,7 +220,7 @@ internal sealed class D6Joint : JointModel
             // In the cone's middle its nearest line has no direction: half of it is far enough.
             double every = Math.Min(SwingLimit.Y, SwingLimit.Z) / 2;
             double padding = LimitsFromAfar ? every : response.IsSoft ? 0 : response.ContactDistance;
-            if (ConeLimitError.Find(SwingLimit, padding, parts.Swing, out Vector3d axis, out double error))
+            if (ConeLimitError.Find(SwingLimit, padding, parts.Swing, LimitsFromAfar, out Vector3d axis, out double error))
             {
                 writer.ConeLimit(f.Q0 * axis, error, response);
             }
@@ -252,7 +252,9 @@ internal sealed class D6Joint : JointModel
 
         if (twist)
         {
-            writer.AngleLimits(x1, Followed(SwingTwist.TwistAngle(parts.Twist)), TwistLimit.Lower, TwistLimit.Upper, TwistLimit.Response);
+            // PhysX's row is not the gradient of its angle while the joint swings: what holds by it gives energy and drifts.
+            Vector3d gradient = LimitsFromAfar ? SwingTwist.TwistGradient(f.Axis0(0), x1) : x1;
+            writer.AngleLimits(gradient, Followed(SwingTwist.TwistAngle(parts.Twist)), TwistLimit.Lower, TwistLimit.Upper, TwistLimit.Response);
         }
     }
 

@@ -6,6 +6,8 @@ namespace Kinefab.Joints;
 /// <summary>A rotation as q = swing * twist, twist about X and swing about an axis at right angles to X.</summary>
 internal readonly struct SwingTwist
 {
+    private const double LeastCosine = 1e-6;
+
     public readonly Quaterniond Swing;
     public readonly Quaterniond Twist;
 
@@ -21,6 +23,14 @@ internal readonly struct SwingTwist
     /// Source: ExtRevoluteJoint.cpp, computePhi (there by acos of a float, which is coarse near 0).
     /// </summary>
     public static double TwistAngle(Quaterniond q) => 2 * Math.Atan2(q.X, q.W);
+
+    /// <summary>
+    /// g of a twist: its rate is g.w for the angular velocity w of frame 1 against frame 0; g = (a0 + a1) / (1 + a0.a1). Where the axis has
+    /// been turned round by half a turn there is no twist, and g stays finite.
+    /// </summary>
+    /// <param name="axis0">The twist's axis in frame 0.</param>
+    /// <param name="axis1">The same in frame 1.</param>
+    public static Vector3d TwistGradient(Vector3d axis0, Vector3d axis1) => (axis0 + axis1) * (1 / Math.Max(LeastCosine, 1 + Vector3d.Dot(axis0, axis1)));
 
     /// <summary>Of the angles that differ from one by whole turns the one nearest to a reference, radians.</summary>
     public static double Nearest(double angle, double reference) => angle + 2 * Math.PI * Math.Round((reference - angle) / (2 * Math.PI));

@@ -128,6 +128,7 @@ internal sealed class StepController
         _start.Save(_batch);
         Audit(dt);
         _dt = dt;
+        Substep.Trace?.Invoke($"advance dt {dt:0.0e+0} demand {demand} halvings {halvings} tol {tolerance:0.0e+0}");
         while (!TrySubsteps(dt, halvings, tolerance) || !IsEnergyKept(halvings))
         {
             _start.Restore(_batch);
@@ -197,7 +198,9 @@ internal sealed class StepController
     private bool IsEnergyKept(int halvings)
     {
         bool mayLose = _batch.ActiveSet != null || halvings >= MaxHalvings;
-        return !_isAudited || new EnergyAudit(_batch, _dt, _tolerance).IsKept(_energy, mayLose, mayLose ? MostEnergyGain : MostEnergyChange);
+        bool r = !_isAudited || new EnergyAudit(_batch, _dt, _tolerance).IsKept(_energy, mayLose, mayLose ? MostEnergyGain : MostEnergyChange);
+        if (!r) Substep.Trace?.Invoke($" energy not kept at halvings {halvings}: {_energy.Describe()} -> {new EnergyAudit(_batch, _dt, _tolerance).Describe()}");
+        return r;
     }
 
     private bool TrySubsteps(double dt, int halvings, double tolerance)

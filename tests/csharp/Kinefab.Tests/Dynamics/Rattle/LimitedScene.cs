@@ -19,6 +19,7 @@ internal sealed class LimitedScene
     private readonly MechanismBuilder _builder = new();
     private readonly List<RevoluteJoint> _hinges = new();
     private readonly List<Pose> _poses = new();
+    private readonly List<Vector3d> _halves = new();
     private readonly List<bool> _isDriven = new();
 
     public LimitedScene(int seed)
@@ -28,14 +29,18 @@ internal sealed class LimitedScene
         int bodies = _random.Next(1, MostBodies + 1);
         for (int i = 0; i < bodies; i++)
         {
-            AddBody(i);
-            AddJoint(One(4) ? _random.Next(-1, i) : i - 1, i);
+            int parent = One(4) ? _random.Next(-1, i) : i - 1;
+            AddBody(parent, out Vector3d point);
+            if (!_isDriven[i])
+            {
+                AddJoint(parent, i, point);
+            }
         }
 
-        if (One(6) && bodies > 2)
+        if (One(6) && bodies > 2 && !_isDriven.Contains(true))
         {
             // A loop: as it stands it is closed.
-            AddJoint(-1, bodies - 1);
+            AddJoint(-1, bodies - 1, _poses[^1].Point(Inside(bodies - 1)));
         }
 
         if (_hinges.Count > 1 && One(3))
@@ -99,14 +104,20 @@ internal sealed class LimitedScene
         return sum;
     }
 
-    private void AddBody(int index)
+    // A box of a material between foam and lead, hung by a point of itself on a point of its parent.
+    private void AddBody(int parent, out Vector3d point)
     {
         double mass = Power(-3, 3);
-        double size = One(6) ? 1e-3 : Power(-1.5, 0.3);
-        Vector3d half = One(4) ? new Vector3d(size, size * 1e-3, size * 1e-3) : new Vector3d(size, size * Between(0.05, 1), size * Between(0.05, 1));
+        double width = One(4) ? Power(-2.5, -1) : Between(0.2, 1);
+        double depth = width * Between(0.5, 1);
+        double size = Math.Cbrt(mass / (8 * Power(2, 4) * width * depth));
+        var half = new Vector3d(size, size * width, size * depth);
+        _halves.Add(half);
         Vector3d square = Vector3d.Scale(half, half) * (mass / 3);
+        point = parent < 0 ? Vector(1) : _poses[parent].Point(Inside(parent));
+        Quaterniond turn = Turn();
         BodyDefinition d = BodyDefinition.Default;
-        d.Pose = new Pose(new Vector3d(index * 0.5, 0, 0) + Vector(0.3), Turn());
+        d.Pose = new Pose(point - turn * Inside(_halves.Count - 1), turn);
         d.Mass = mass;
         d.Inertia = new Vector3d(square.Y + square.Z, square.X + square.Z, square.X + square.Y);
         d.LinearVelocity = Vector(One(8) ? 20 : 2);
@@ -126,16 +137,13 @@ internal sealed class LimitedScene
         _builder.Body(d);
     }
 
-    private void AddJoint(int body0, int body1)
-    {
-        if (_isDriven[body1] && (body0 < 0 || _isDriven[body0]))
-        {
-            return;
-        }
+    // One in ten anchors is out of the body.
+    private Vector3d Inside(int body) => Vector3d.Scale(Vector(1), _halves[body]) + (One(10) ? Vector(0.3) : Vector3d.Zero);
 
+    private void AddJoint(int body0, int body1, Vector3d point)
+    {
         Vector3d x = Vector(1).Normalized();
         Vector3d y = Vector3d.Perpendicular(x);
-        Vector3d point = _poses[body1].Position + Vector(One(5) ? 1e-3 : 0.3);
         JointModel joint = One(2) ? Hinge() : SixAxes();
         joint.DriveLimitsAreForces = true;
         _builder.Add(joint, body0, body1, new Pose(point, Quaterniond.FromAxes(x, y, Vector3d.Cross(x, y))));
@@ -187,7 +195,8 @@ internal sealed class LimitedScene
             DriveSlerp = One(4) ? Spring(1) : default,
         };
         bool isSlerp = joint.Twist != AxisMotion.Locked && joint.Swing1 != AxisMotion.Locked && joint.Swing2 != AxisMotion.Locked;
-        IsPassive &= isSlerp || joint.DriveTwist.Stiffness == 0;
+        IsPassive &= isSlerp ? double.IsInfinity(joint.DriveSlerp.ForceLimit) || joint.DriveSlerp.Stiffness == 0 : joint.DriveTwist.Stiffness == 0;
+        IsPassive &= !(joint.Swing1 == AxisMotion.Limited && joint.Swing2 == AxisMotion.Limited && joint.SwingLimit.Response.IsSoft);
         return joint;
     }
 

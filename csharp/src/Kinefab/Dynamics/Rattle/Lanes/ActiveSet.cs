@@ -19,6 +19,7 @@ internal sealed partial class ActiveSet<V>
 
     // Keeps the pivot of a limit or speed that other rows hold too above 0, without a trace in the speed.
     private const double RigidShare = 1e-11;
+    public static double LimitShare = double.Parse(System.Environment.GetEnvironmentVariable("LS") ?? "1e-11");
 
     // A compliance beyond this share of the row's response stands for a spring that hardly acts.
     private const double LeastResponse = 1e-200;
@@ -238,7 +239,7 @@ internal sealed partial class ActiveSet<V>
                     _batch.Matrix[cell] = 1;
                     break;
                 case ProjectedAs.Rigid:
-                    _batch.Matrix[cell] *= 1 + RigidShare;
+                    _batch.Matrix[cell] *= 1 + (scalar.Kind == RowKind.Limit ? LimitShare : RigidShare);
                     break;
                 default:
                     _batch.Matrix[cell] += 1 / (isDrift ? scalar.Theta * scalar.ImplicitDamping : scalar.CorrectionGain);
@@ -247,6 +248,22 @@ internal sealed partial class ActiveSet<V>
         }
 
         _scalars.IsFactored = true;
+    }
+
+    /// <summary>Adds the compliance of springs times a vector to J M^-1 J^T times it; rows at their bounds stay as they are.</summary>
+    public void AddCompliance(double[] vector, double[] product, bool isDrift)
+    {
+        for (int i = 0; i < _rows.Length; i++)
+        {
+            ref ScalarRow scalar = ref _rows[i];
+            int k = scalar.Index;
+            product[k] = scalar.ProjectedAs switch
+            {
+                ProjectedAs.Inactive => vector[k],
+                ProjectedAs.Rigid => product[k],
+                _ => product[k] + vector[k] / (isDrift ? scalar.Theta * scalar.ImplicitDamping : scalar.CorrectionGain),
+            };
+        }
     }
 
     private double StartSpeed(in ScalarRow scalar) => Impulses<V>.Speed(_batch, scalar.Block, scalar.Built);

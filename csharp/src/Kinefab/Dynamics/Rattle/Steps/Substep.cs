@@ -26,9 +26,11 @@ internal sealed class Substep
 
     private readonly LaneBatch<ScalarLane> _batch;
     private readonly ImplicitEulerStep _implicit;
+    private readonly ConjugateGradient _exact;
     private readonly Snapshot _pieceStart;
     private readonly double[] _guess;
     private readonly bool[] _converged = new bool[1];
+    public static Action<string>? Trace;
     private double _length;
     private double _guessLength;
 
@@ -36,6 +38,7 @@ internal sealed class Substep
     {
         _batch = batch;
         _implicit = new ImplicitEulerStep(batch);
+        _exact = new ConjugateGradient(batch);
         _pieceStart = new Snapshot(batch);
         _guess = new double[batch.VelocityImpulses.Length];
     }
@@ -69,7 +72,8 @@ internal sealed class Substep
         ActiveSet<ScalarLane>? scalars = _batch.ActiveSet;
         if (scalars == null)
         {
-            return TryDrift(h, tolerance) && Complete(h, h, tolerance);
+            _pieceStart.Save(_batch);
+            return TryDriftFromPieceStart(h, tolerance) && Complete(h, h, tolerance);
         }
 
         SetLength(h);
@@ -80,7 +84,7 @@ internal sealed class Substep
             _pieceStart.Save(_batch);
             Array.Copy(_batch.VelocityImpulses, _guess, _guess.Length);
             _guessLength = _length;
-            if (!TryDrift(left, tolerance))
+            if (!TryDriftFromPieceStart(left, tolerance))
             {
                 return false;
             }
@@ -131,10 +135,26 @@ internal sealed class Substep
         return IsFinite();
     }
 
-    private bool TryDrift(double h, double tolerance)
+    // A guess can be worse than none: a damper's impulse, or what came before a blow, told of another motion.
+    private bool TryDriftFromPieceStart(double h, double tolerance)
+    {
+        if (TryDrift(h, tolerance))
+        {
+            return true;
+        }
+
+        _pieceStart.Restore(_batch);
+        Array.Clear(_batch.VelocityImpulses, 0, _batch.VelocityImpulses.Length);
+        _batch.Scalars?.ClearHistory();
+        return TryDrift(h, tolerance, _batch.Shape.IsInconsistent ? null : _exact);
+    }
+
+    private bool TryDrift(double h, double tolerance, ConjugateGradient? exact = null)
     {
         _batch.Work.Active[0] = 1;
-        RattleStep<ScalarLane>.KickAndDrift(_batch, h, tolerance, _converged, IsEager);
+        RattleStep<ScalarLane>.KickAndDrift(_batch, h, tolerance, _converged, IsEager, exact);
+        if (Trace != null && !_converged[0]) { var e = _batch.Work.Error; int w = 0; for (int i = 0; i < e.Length; i++) if (!(Math.Abs(e[i]) <= Math.Abs(e[w]))) w = i; Trace($"  drift h {h:0.0e+0} not converged, max {_batch.Work.MaxError[0]:0.0e+0} gap {_batch.Work.MaxGap[0]:0.0e+0} first {_batch.Work.FirstMaxError[0]:0.0e+0} row {w} of {e.Length}"); }
+        else if (Trace != null && _batch.ActiveSet != null && _batch.ActiveSet.HasMissedEvent(tolerance)) Trace($"  drift h {h:0.0e+0} missed event");
         return _converged[0] && (_batch.ActiveSet == null || !_batch.ActiveSet.HasMissedEvent(tolerance));
     }
 
@@ -162,7 +182,7 @@ internal sealed class Substep
             _pieceStart.Restore(_batch);
             Begin(_guessLength);
             SetLength(piece);
-            if (!TryDrift(piece, tolerance))
+            if (!TryDriftFromPieceStart(piece, tolerance))
             {
                 return false;
             }
@@ -190,6 +210,7 @@ internal sealed class Substep
         }
 
         piece = 0;
+        Trace?.Invoke($"  reach failed: [{early:0.0e+0} {late:0.0e+0}] of {longest:0.0e+0}: {before:0.0e+0} {after:0.0e+0}");
         return false;
     }
 
@@ -243,6 +264,11 @@ internal sealed class Substep
     }
 
     private bool IsFinite()
+    {
+        bool r = IsFinite2(); if (!r) Trace?.Invoke("  not finite"); return r;
+    }
+
+    private bool IsFinite2()
     {
         for (int body = 0; body < _batch.Shape.MovingBodies; body++)
         {

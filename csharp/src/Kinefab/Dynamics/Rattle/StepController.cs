@@ -17,6 +17,9 @@ internal sealed class StepController
     public const int MaxHalvings = 10;
     private const int MaxDepth = 12;
 
+    // Halvings into even parts where limits and drives act: blows end the long account of energy for which the parts are even.
+    private const int MaxEvenHalvings = 6;
+
     // Failures in a step after which parts that fail are left to implicit Euler.
     private const int MaxFailures = 48;
 
@@ -30,10 +33,11 @@ internal sealed class StepController
     private const double MostEnergyGain = 0.005;
 
     private readonly LaneBatch<ScalarLane> _batch;
+    private readonly ConjugateGradient _exact;
     private readonly Substep _part;
     private readonly PositionProjection _closure;
     private readonly Snapshot _start;
-    private readonly Snapshot[] _substepStarts = new Snapshot[MaxDepth - MaxHalvings + 1];
+    private readonly Snapshot[] _substepStarts = new Snapshot[MaxDepth + 1];
     private int _failures;
     private int _dampedInStep;
     private int _worst;
@@ -46,8 +50,10 @@ internal sealed class StepController
     public StepController(LaneBatch<ScalarLane> batch)
     {
         _batch = batch;
-        _part = new Substep(batch);
-        _closure = new PositionProjection(batch);
+        _exact = new ConjugateGradient(batch);
+        _part = new Substep(batch, _exact);
+        _closure = new PositionProjection(batch, _exact);
+        
         _start = new Snapshot(batch);
         for (int i = 0; i < _substepStarts.Length; i++)
         {
@@ -142,9 +148,9 @@ internal sealed class StepController
                 Audit(dt);
             }
 
-            if (halvings == MaxHalvings)
+            if (halvings >= (_batch.ActiveSet == null ? MaxHalvings : MaxEvenHalvings))
             {
-                SubstepUntilSolved(dt, tolerance);
+                SubstepUntilSolved(dt, halvings, tolerance);
                 break;
             }
 
@@ -160,7 +166,7 @@ internal sealed class StepController
     {
         _isAudited &= !(isMoved && _closure.IsOpen());
         RattleStep<ScalarLane>.Rebuild(_batch);
-        InitialVelocityProjection.Apply(_batch);
+        InitialVelocityProjection.Apply(_batch, _exact);
     }
 
     private void Audit(double dt)
@@ -218,11 +224,11 @@ internal sealed class StepController
         return true;
     }
 
-    private void SubstepUntilSolved(double dt, double tolerance)
+    private void SubstepUntilSolved(double dt, int halvings, double tolerance)
     {
-        for (int i = 1 << MaxHalvings; i > 0; i--)
+        for (int i = 1 << halvings; i > 0; i--)
         {
-            Halve(dt / (1 << MaxHalvings), MaxHalvings, tolerance);
+            Halve(dt / (1 << halvings), halvings, tolerance);
         }
     }
 
@@ -234,7 +240,7 @@ internal sealed class StepController
             return;
         }
 
-        Snapshot start = _substepStarts[depth - MaxHalvings];
+        Snapshot start = _substepStarts[depth];
         _part.SetLength(h);
         start.Save(_batch);
         if (_part.TryRattle(h, tolerance) && IsEnergyKept(depth))
@@ -253,6 +259,13 @@ internal sealed class StepController
         }
 
         if (_part.TryImplicitEuler(h, tolerance) && IsEnergyKept(depth))
+        {
+            return;
+        }
+
+        start.Restore(_batch);
+        _part.Begin(h);
+        if (_part.TryProjected(h, tolerance) && IsEnergyKept(depth))
         {
             return;
         }

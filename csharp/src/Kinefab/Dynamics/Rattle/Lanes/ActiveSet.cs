@@ -72,8 +72,8 @@ internal sealed partial class ActiveSet<V>
             scalar.ImpulseSecondHalf = 0;
             scalar.PendingImpulse = 0;
             scalar.Theta = isImplicit ? 1 : 0.5;
-            scalar.Kind = scalar.FindKind();
-            scalar.IsApart = LocatesEvents && (!scalar.IsActive || (scalar.Kind == RowKind.Limit && scalar.StartError > Reach * tolerance));
+            scalar.Kind = scalar.FindKind(SoftReach(scalar, h, tolerance));
+            scalar.IsApart = LocatesEvents && (!scalar.IsActive || (scalar.Built.Has(RowFlags.Limit) && scalar.StartError > Reach * tolerance));
             scalar.Allowed = scalar.Kind == RowKind.Limit && scalar.StartError < -MostClosedByDrift ? scalar.StartError : 0;
             if (scalar.Kind == RowKind.None || scalar.IsApart)
             {
@@ -139,15 +139,17 @@ internal sealed partial class ActiveSet<V>
     }
 
     /// <summary>Holds the hard limits that are passed where the rows were last built, and nothing else; writes their J and C.</summary>
-    public void ActivateViolated()
+    /// <param name="keepsAllowed">Whether a limit may stand passed as far as it was left so.</param>
+    public void ActivateViolated(bool keepsAllowed)
     {
         for (int i = 0; i < _rows.Length; i++)
         {
             ref ScalarRow scalar = ref _rows[i];
             scalar.Kind = scalar.IsActive && scalar.Built.Has(RowFlags.Limit) && !scalar.Built.Has(RowFlags.Spring) ? RowKind.Limit : RowKind.None;
-            bool isPassed = scalar.Kind == RowKind.Limit && scalar.Built.GeometricError < 0;
+            double error = scalar.Built.GeometricError - (keepsAllowed ? scalar.Allowed : 0);
+            bool isPassed = scalar.Kind == RowKind.Limit && error < 0;
             scalar.State = isPassed ? RowState.Free : RowState.AtBound;
-            _batch.Work.Error[scalar.Index] = isPassed ? scalar.Built.GeometricError : 0;
+            _batch.Work.Error[scalar.Index] = isPassed ? error : 0;
         }
 
         WriteRows(false);
@@ -248,6 +250,14 @@ internal sealed partial class ActiveSet<V>
         }
 
         _scalars.IsFactored = true;
+    }
+
+    // Where events are not located, a soft limit that the step will reach acts from its start on, by the pose at its end.
+    private double SoftReach(in ScalarRow scalar, double h, double tolerance)
+    {
+        const double margin = 1.5;
+        bool isSoft = scalar.IsActive && scalar.Built.Has(RowFlags.Limit | RowFlags.Spring);
+        return isSoft && !LocatesEvents ? Math.Max(Reach * tolerance, -margin * h * StartSpeed(scalar)) : Reach * tolerance;
     }
 
     /// <summary>Adds the compliance of springs times a vector to J M^-1 J^T times it; rows at their bounds stay as they are.</summary>

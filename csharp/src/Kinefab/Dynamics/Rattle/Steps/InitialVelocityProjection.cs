@@ -11,15 +11,15 @@ internal static class InitialVelocityProjection
 {
     /// <summary>Projects the momenta on what the rigid rows allow.</summary>
     /// <param name="batch">Built at the start pose; factored for the drift again where there are no scalar rows.</param>
-    public static void Apply(LaneBatch<ScalarLane> batch)
+    /// <param name="exact">Solves without the matrix's compliance.</param>
+    public static void Apply(LaneBatch<ScalarLane> batch, ConjugateGradient exact)
     {
         double[] blow = batch.Work.Solution;
         batch.Work.Active[0] = 1;
         batch.ActiveSet?.Deactivate();
         RattleStep<ScalarLane>.Factor(batch, false);
         Impulses<ScalarLane>.NegativeSpeeds(batch);
-        batch.ActiveSet?.ClearAtBound(blow);
-        BlockCholesky<ScalarLane>.Solve(batch.Shape.Pattern, batch.Matrix, blow);
+        exact.Solve(false);
         Impulses<ScalarLane>.Apply(batch, blow);
         for (int i = 0; i < blow.Length; i++)
         {

@@ -27,6 +27,7 @@ internal sealed class Substep
     private readonly LaneBatch<ScalarLane> _batch;
     private readonly ImplicitEulerStep _implicit;
     private readonly ConjugateGradient _exact;
+    private readonly ProjectedStep _projected;
     private readonly Snapshot _pieceStart;
     private readonly double[] _guess;
     private readonly bool[] _converged = new bool[1];
@@ -34,11 +35,12 @@ internal sealed class Substep
     private double _length;
     private double _guessLength;
 
-    public Substep(LaneBatch<ScalarLane> batch)
+    public Substep(LaneBatch<ScalarLane> batch, ConjugateGradient exact)
     {
         _batch = batch;
         _implicit = new ImplicitEulerStep(batch);
-        _exact = new ConjugateGradient(batch);
+        _exact = exact;
+        _projected = new ProjectedStep(batch, _exact);
         _pieceStart = new Snapshot(batch);
         _guess = new double[batch.VelocityImpulses.Length];
     }
@@ -118,7 +120,7 @@ internal sealed class Substep
             _batch.ActiveSet.LocatesEvents = false;
         }
 
-        if (!_implicit.TrySolve(h, tolerance))
+        if (!_implicit.TrySolve(h, tolerance) || (_batch.ActiveSet != null && _batch.ActiveSet.HasMissedEvent(tolerance)))
         {
             return false;
         }
@@ -127,7 +129,7 @@ internal sealed class Substep
         RattleStep<ScalarLane>.Build(_batch);
         GeometricStiffness<ScalarLane>.Estimate(_batch, _batch.Work.PositionImpulses, h);
         _batch.Work.Active[0] = 1;
-        VelocityProjection<ScalarLane>.Run(_batch, 0, tolerance);
+        VelocityProjection<ScalarLane>.Run(_batch, 0, tolerance, _exact);
         Finish();
 
         // What implicit Euler leaves behind is no guess for RATTLE.
@@ -156,6 +158,24 @@ internal sealed class Substep
         if (Trace != null && !_converged[0]) { var e = _batch.Work.Error; int w = 0; for (int i = 0; i < e.Length; i++) if (!(Math.Abs(e[i]) <= Math.Abs(e[w]))) w = i; Trace($"  drift h {h:0.0e+0} not converged, max {_batch.Work.MaxError[0]:0.0e+0} gap {_batch.Work.MaxGap[0]:0.0e+0} first {_batch.Work.FirstMaxError[0]:0.0e+0} row {w} of {e.Length}"); }
         else if (Trace != null && _batch.ActiveSet != null && _batch.ActiveSet.HasMissedEvent(tolerance)) Trace($"  drift h {h:0.0e+0} missed event");
         return _converged[0] && (_batch.ActiveSet == null || !_batch.ActiveSet.HasMissedEvent(tolerance));
+    }
+
+    /// <summary>A <see cref="ProjectedStep"/> from the start pose.</summary>
+    public bool TryProjected(double h, double tolerance)
+    {
+        if (_batch.ActiveSet != null)
+        {
+            _batch.ActiveSet.LocatesEvents = false;
+        }
+
+        if (_batch.Shape.IsInconsistent || !_projected.TrySolve(h, tolerance))
+        {
+            return false;
+        }
+
+        Finish();
+        Array.Clear(_batch.VelocityImpulses, 0, _batch.VelocityImpulses.Length);
+        return IsFinite();
     }
 
     // The drift as long as leads to the first limit on its way: the least C of those that are apart, by the Illinois rule of false position
@@ -220,7 +240,7 @@ internal sealed class Substep
         _batch.ActiveSet?.AddWork();
         RattleStep<ScalarLane>.Build(_batch);
         _batch.Work.Active[0] = 1;
-        VelocityProjection<ScalarLane>.Run(_batch, h, tolerance);
+        VelocityProjection<ScalarLane>.Run(_batch, h, tolerance, _exact);
         Finish();
         if (_batch.ActiveSet == null)
         {
@@ -235,7 +255,7 @@ internal sealed class Substep
             _guessLength = h;
         }
 
-        if (VelocityProjection<ScalarLane>.Strike(_batch, tolerance))
+        if (VelocityProjection<ScalarLane>.Strike(_batch, tolerance, _exact))
         {
             Accumulate(_batch.VelocityImpulses);
         }

@@ -42,6 +42,9 @@ internal sealed class StepController
     private int _dampedInStep;
     private int _worst;
     private double _worstError;
+    private int _forbidden = -1;
+    private double _forbiddenSpeed;
+    private StepTroubles _troubles;
     private bool _isAudited;
     private EnergyAudit _energy;
     private double _dt;
@@ -69,8 +72,8 @@ internal sealed class StepController
     public UnsolvedStep Unsolved(Island island)
     {
         return _worst < 0
-            ? new UnsolvedStep { Body = island.Bodies[0] }
-            : new UnsolvedStep { Body = island.Bodies[0], Joint = JointOf(island, _worst), Error = _worstError, IsAngular = island.IsAngular[_worst] };
+            ? new UnsolvedStep { Body = island.Bodies[0], Troubles = _troubles }
+            : new UnsolvedStep { Body = island.Bodies[0], Troubles = _troubles, Joint = JointOf(island, _worst), Error = _worstError, IsAngular = island.IsAngular[_worst] };
     }
 
     /// <summary>The joints whose limits stand passed and cannot be closed are added to a list.</summary>
@@ -87,6 +90,14 @@ internal sealed class StepController
 
     /// <summary>Whether the last step began by closing its start pose.</summary>
     public bool HasClosed { get; private set; }
+
+    /// <summary>Whether the last step began by taking speeds off that the joints forbid.</summary>
+    public bool HasForbiddenSpeed => _forbidden >= 0;
+
+    /// <summary>The largest of them.</summary>
+    /// <param name="island">The island that was stepped; the batch may be of another of its shape.</param>
+    public ForbiddenSpeed Forbidden(Island island) =>
+        new() { Body = island.Bodies[0], Joint = JointOf(island, _forbidden), Speed = _forbiddenSpeed, IsAngular = island.IsAngular[_forbidden] };
 
     /// <summary>What was moved then.</summary>
     /// <param name="island">The island that was stepped; the batch may be of another of its shape.</param>
@@ -118,7 +129,8 @@ internal sealed class StepController
         _isAudited = EnergyAudit.IsKnown(_batch);
         isMoved |= _batch.ActiveSet != null && _batch.ActiveSet.IsNewlyPassed();
         HasClosed = isMoved && _closure.TryClose(tolerance);
-        bool hasSettled = hasFailed || HasClosed;
+        _forbidden = isMoved && !_batch.Shape.IsInconsistent ? InitialVelocityProjection.Find(_batch, out _forbiddenSpeed) : -1;
+        bool hasSettled = hasFailed || HasClosed || HasForbiddenSpeed;
         if (hasSettled)
         {
             CloseInitialState(isMoved);
@@ -200,6 +212,13 @@ internal sealed class StepController
         }
     }
 
+    // Of the pose that is built; its rows have to be built anew after it.
+    private void FindTroubles(double tolerance)
+    {
+        _troubles = _batch.ActiveSet?.Troubles(ActiveSet<ScalarLane>.Reach * tolerance) ?? StepTroubles.None;
+        _troubles |= _closure.IsOpen() ? StepTroubles.Open : StepTroubles.None;
+    }
+
     // At the finest even parts a violent motion without scalar rows may lose energy: nothing below these is better.
     private bool IsEnergyKept(int halvings)
     {
@@ -273,6 +292,8 @@ internal sealed class StepController
         if (_dampedInStep == 0)
         {
             MeasureWorstResidual(tolerance);
+            start.Restore(_batch);
+            FindTroubles(tolerance);
         }
 
         start.Restore(_batch);

@@ -198,6 +198,26 @@ internal sealed partial class ActiveSet<V>
         return false;
     }
 
+    /// <summary>Which of the rows may be to blame where no step is found from the pose that is built.</summary>
+    /// <param name="reach">C up to which a limit counts as reached, m or rad.</param>
+    public StepTroubles Troubles(double reach)
+    {
+        // Unity's own "no limit" is the largest float, 3.4e38.
+        const double endless = 1e30;
+        StepTroubles found = StepTroubles.None;
+        for (int i = 0; i < _rows.Length; i++)
+        {
+            ref readonly ConstraintRow row = ref _rows[i].Built;
+            bool isEndless = row.Has(RowFlags.Drive) && Math.Max(row.Maximum, -row.Minimum) > endless;
+            found |= !_rows[i].IsActive ? StepTroubles.None
+                : IsHardLimit(row) && row.GeometricError <= reach ? StepTroubles.Limit
+                : isEndless ? StepTroubles.EndlessDrive
+                : StepTroubles.None;
+        }
+
+        return found;
+    }
+
     /// <summary>The next row, from one on, of a limit that stands passed and cannot be closed; -1: there is none.</summary>
     public int NextHeldOpen(int from)
     {

@@ -15,6 +15,9 @@ internal sealed class ConjugateGradient
     // Share of the residual's square, in the preconditioner's norm, that is left.
     private const double MostLeft = 1e-20;
 
+    // Share of the preconditioner's response below which a direction is rounding: of rows that repeat or contradict each other.
+    private const double LeastCurvature = 1e-8;
+
     private readonly LaneBatch<ScalarLane> _batch;
     private readonly double[] _sum;
     private readonly double[] _residual;
@@ -43,13 +46,14 @@ internal sealed class ConjugateGradient
         BlockCholesky<ScalarLane>.Solve(_batch.Shape.Pattern, _batch.Matrix, solution);
         Array.Copy(solution, _direction, solution.Length);
         double square = Product(_residual, solution);
+        double norm = square;
         double enough = MostLeft * square;
         SwapMomenta();
         for (int iteration = 0; iteration < MaxIterations && square > enough; iteration++)
         {
             Multiply(_direction, isDrift);
             double curvature = Product(_direction, solution);
-            if (!(curvature > 0))
+            if (!(curvature > LeastCurvature * norm))
             {
                 break;
             }
@@ -69,6 +73,7 @@ internal sealed class ConjugateGradient
                 _direction[i] = solution[i] + next / square * _direction[i];
             }
 
+            norm = next + next / square * (next / square) * norm;
             square = next;
         }
 

@@ -21,6 +21,9 @@ internal sealed class Substep
     // A piece shorter than this share of the part says little of the impulses of the rest.
     private const double LeastTelling = 0.25;
 
+    // Where a limit is passed within this share of a part, the pose was not what the drift began from.
+    private const double LeastPiece = 1e-12;
+
     // Largest error of a quaternion's square.
     private const double MostStretch = 1e-3;
 
@@ -31,7 +34,7 @@ internal sealed class Substep
     private readonly Snapshot _pieceStart;
     private readonly double[] _guess;
     private readonly bool[] _converged = new bool[1];
-    public static Action<string>? Trace;
+    public static Action<string>? Trace { get; set; }
     private double _length;
     private double _guessLength;
 
@@ -194,7 +197,7 @@ internal sealed class Substep
             bool isSlow = trial % 3 == 2 && late - early > bracket / 2;
             bracket = trial % 3 == 2 ? late - early : bracket;
             piece = isSlow ? (early + late) / 2 : early + (late - early) * (before / (before - after));
-            if (!(piece > early && piece < late))
+            if (!(piece > early && piece < late) || late < LeastPiece * longest)
             {
                 break;
             }

@@ -50,10 +50,10 @@ internal sealed class EventOrderTests
         int bolt = b.Bar(Vector3d.Zero, new Vector3d(0.2, 0, 0), 0.3);
         b.Change(bolt, d => d with { AngularVelocity = new Vector3d(0, 0, 4), LinearVelocity = new Vector3d(0, 0.4, 0) });
         RevoluteJoint hinge = b.Hinge(JointModel.World, bolt, Vector3d.Zero, Vector3d.UnitZ);
-        Limits(hinge, -0.3, 3, new LimitResponse { Restitution = 0.5, BounceThreshold = 0.01 });
+        Limits(hinge, -0.3, 3, new LimitResponse { Restitution = 0.9, BounceThreshold = 0.01 });
         hinge.Spring = new DriveModel { Stiffness = 0.8, ForceLimit = double.PositiveInfinity };
         RevoluteJoint buffer = b.Hinge(JointModel.World, bolt, Vector3d.Zero, Vector3d.UnitZ);
-        Limits(buffer, -3, 0.15, new LimitResponse { Stiffness = 12, Damping = 0.05 });
+        Limits(buffer, -3, 0.15, new LimitResponse { Stiffness = 12, Damping = 0.002 });
         return b.Build();
     });
 

@@ -20,6 +20,13 @@ internal static class InitialVelocityProjection
     {
         int worst = -1;
         speed = MostForbidden;
+        if (batch.Scalars != null)
+        {
+            // The rows' responses come with the matrix.
+            RattleStep<ScalarLane>.Factor(batch, false);
+            batch.Scalars.Invalidate();
+        }
+
         Impulses<ScalarLane>.NegativeSpeeds(batch);
         for (int n = 0; n < batch.Shape.Blocks.Length; n++)
         {

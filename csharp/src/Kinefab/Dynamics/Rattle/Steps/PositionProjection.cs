@@ -194,7 +194,16 @@ internal sealed class PositionProjection
             solution[i] = -_batch.Work.Error[i];
         }
 
-        _exact.Solve(false);
+        if (_keepsAllowed)
+        {
+            _exact.Solve(false);
+        }
+        else
+        {
+            // Far from closed, rows that repeat each other differ by more than the compliance.
+            BlockCholesky<ScalarLane>.Solve(shape.Pattern, _batch.Matrix, solution);
+        }
+
         double[] a = _batch.Bodies;
         for (int body = 0; body < shape.MovingBodies; body++)
         {

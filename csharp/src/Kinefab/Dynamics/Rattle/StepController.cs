@@ -146,7 +146,6 @@ internal sealed class StepController
         _start.Save(_batch);
         Audit(dt);
         _dt = dt;
-        Substep.Trace?.Invoke($"advance dt {dt:0.0e+0} demand {demand} halvings {halvings} tol {tolerance:0.0e+0}");
         while (!TrySubsteps(dt, halvings, tolerance) || !IsEnergyKept(halvings))
         {
             _start.Restore(_batch);
@@ -223,9 +222,7 @@ internal sealed class StepController
     private bool IsEnergyKept(int halvings)
     {
         bool mayLose = _batch.ActiveSet != null || halvings >= MaxHalvings;
-        bool r = !_isAudited || new EnergyAudit(_batch, _dt, _tolerance).IsKept(_energy, mayLose, mayLose ? MostEnergyGain : MostEnergyChange);
-        if (!r) Substep.Trace?.Invoke($" energy not kept at halvings {halvings}: {_energy.Describe()} -> {new EnergyAudit(_batch, _dt, _tolerance).Describe()}");
-        return r;
+        return !_isAudited || new EnergyAudit(_batch, _dt, _tolerance).IsKept(_energy, mayLose, mayLose ? MostEnergyGain : MostEnergyChange);
     }
 
     private bool TrySubsteps(double dt, int halvings, double tolerance)

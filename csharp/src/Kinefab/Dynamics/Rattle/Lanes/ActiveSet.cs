@@ -19,7 +19,6 @@ internal sealed partial class ActiveSet<V>
 
     // Keeps the pivot of a limit or speed that other rows hold too above 0, without a trace in the speed.
     private const double RigidShare = 1e-11;
-    public static double LimitShare = double.Parse(System.Environment.GetEnvironmentVariable("LS") ?? "1e-11");
 
     // A compliance beyond this share of the row's response stands for a spring that hardly acts.
     private const double LeastResponse = 1e-200;
@@ -261,7 +260,7 @@ internal sealed partial class ActiveSet<V>
                     _batch.Matrix[cell] = 1;
                     break;
                 case ProjectedAs.Rigid:
-                    _batch.Matrix[cell] *= 1 + (scalar.Kind == RowKind.Limit ? LimitShare : RigidShare);
+                    _batch.Matrix[cell] *= 1 + RigidShare;
                     break;
                 default:
                     _batch.Matrix[cell] += 1 / (isDrift ? scalar.Theta * scalar.ImplicitDamping : scalar.CorrectionGain);

@@ -59,8 +59,6 @@ internal readonly struct EnergyAudit
         }
     }
 
-    public string Describe() => $"kin {_kinetic:0.0000e+0} work {_work:0.0000e+0} stored {_stored:0.0000e+0} sprung {_sprung:0.000e+0} driven {_driven:0.0e+0} forced {_forced:0.0e+0} floor {_floor:0.0e+0}";
-
     /// <summary>Whether nothing does work on an island but its bodies' own constant forces and its scalar rows.</summary>
     public static bool IsKnown(LaneBatch<ScalarLane> batch)
     {

@@ -30,7 +30,6 @@ internal sealed class PositionProjection
     // Velocities and angular momenta, whose place the moves take.
     private readonly double[] _momenta;
     private bool _keepsAllowed;
-    public double LastError;
 
     public PositionProjection(LaneBatch<ScalarLane> batch, ConjugateGradient exact)
     {
@@ -119,7 +118,6 @@ internal sealed class PositionProjection
                 Worst = Array.FindIndex(_batch.Work.Error, c => Math.Abs(c) == error);
             }
 
-            LastError = error;
             if (error < tolerance)
             {
                 return true;

@@ -45,7 +45,6 @@ internal sealed class ProjectedStep
         scalars?.AddWork();
         if (!_closure.TryCloseEnd(tolerance))
         {
-            Substep.Trace?.Invoke($"  projected h {h:0.0e+0} not closed: from {_closure.WorstError:0.0e+0} row {_closure.Worst} to {_closure.LastError:0.0e+0}");
             return false;
         }
 

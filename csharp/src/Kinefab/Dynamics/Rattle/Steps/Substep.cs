@@ -34,7 +34,6 @@ internal sealed class Substep
     private readonly Snapshot _pieceStart;
     private readonly double[] _guess;
     private readonly bool[] _converged = new bool[1];
-    public static Action<string>? Trace { get; set; }
     private double _length;
     private double _guessLength;
 
@@ -158,8 +157,6 @@ internal sealed class Substep
     {
         _batch.Work.Active[0] = 1;
         RattleStep<ScalarLane>.KickAndDrift(_batch, h, tolerance, _converged, IsEager, exact);
-        if (Trace != null && !_converged[0]) { var e = _batch.Work.Error; int w = 0; for (int i = 0; i < e.Length; i++) if (!(Math.Abs(e[i]) <= Math.Abs(e[w]))) w = i; Trace($"  drift h {h:0.0e+0} not converged, max {_batch.Work.MaxError[0]:0.0e+0} gap {_batch.Work.MaxGap[0]:0.0e+0} first {_batch.Work.FirstMaxError[0]:0.0e+0} row {w} of {e.Length}"); }
-        else if (Trace != null && _batch.ActiveSet != null && _batch.ActiveSet.HasMissedEvent(tolerance)) Trace($"  drift h {h:0.0e+0} missed event");
         return _converged[0] && (_batch.ActiveSet == null || !_batch.ActiveSet.HasMissedEvent(tolerance));
     }
 
@@ -233,7 +230,6 @@ internal sealed class Substep
         }
 
         piece = 0;
-        Trace?.Invoke($"  reach failed: [{early:0.0e+0} {late:0.0e+0}] of {longest:0.0e+0}: {before:0.0e+0} {after:0.0e+0}");
         return false;
     }
 
@@ -287,11 +283,6 @@ internal sealed class Substep
     }
 
     private bool IsFinite()
-    {
-        bool r = IsFinite2(); if (!r) Trace?.Invoke("  not finite"); return r;
-    }
-
-    private bool IsFinite2()
     {
         for (int body = 0; body < _batch.Shape.MovingBodies; body++)
         {

@@ -9,7 +9,7 @@ SDK = dotnet --list-sdks 2>/dev/null | grep -q '^1[0-9]\.'
 export DOTNET_CLI_TELEMETRY_OPTOUT := 1
 export DOTNET_NOLOGO := 1
 
-.PHONY: help extras setup tool demo test bench docs golden clean
+.PHONY: help extras setup tool unity demo test bench docs golden clean
 
 help: ## this list
 	@grep -E '^[a-z]+:.*##' $(MAKEFILE_LIST) | sed -E 's/:.*## /\t/' | expand -t 10
@@ -28,6 +28,12 @@ setup: ## .venv with everything Python needs
 
 tool: ## build the command line tool, so that `dotnet kinefab` works in the recipes here
 	@dotnet build csharp/src/Kinefab.Cli -c Release -v quiet --nologo
+
+# Without the paths of this machine, so that the same sources give the same package.
+unity: setup ## the package for Unity, out/com.kinefab-VERSION.tgz: Package Manager > Add package from tarball
+	@dotnet build csharp/src/Kinefab -c Release -f netstandard2.1 -p:ContinuousIntegrationBuild=true -p:DebugType=none \
+		-o artifacts/unity -v quiet --nologo
+	@$(PYTHON) csharp/unity/pack.py artifacts/unity/Kinefab.dll -o $(OUT)
 
 demo: setup ## the lever: CAD bundle -> Unity scene -> described, drawn, and by C# validated, moved and advised on
 	@if $(SDK); then $(MAKE) --no-print-directory tool; fi

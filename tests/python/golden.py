@@ -20,9 +20,15 @@ SETTINGS = kinefab.ExportOptions(colliders="hull", closures="minimal", ground="w
 FIXTURES = Path(__file__).resolve().parents[2] / "fixtures"
 
 
+NEWER = r', "(?:id|name|definition)": "(?:[^"\\]|\\.)*"'
+"""What format 1.1 tells beyond 1.0 of a joint, behind its type, and of a part, at its end or before its components."""
+
+
 def unnamed(text: str) -> str:
-    """A scene's text without the user's names of joints, which the golden scenes were written before."""
-    return re.sub(r', "extras": \{"name": "(?:[^"\\]|\\.)*"\}', "", text)
+    """A scene's text as format 1.0 has it, which the golden scenes were written in."""
+    text = re.sub(rf'("type": "\w+Joint")(?:{NEWER})+', r"\1", text)
+    text = re.sub(r', "definition": "(?:[^"\\]|\\.)*"', "", text)
+    return text.replace('"version": "1.1"', '"version": "1.0"', 1)
 
 
 def golden_pairs() -> list[tuple[Path, Path]]:

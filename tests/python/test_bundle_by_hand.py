@@ -227,7 +227,6 @@ def test_the_example_of_the_bundle_page(tmp_path):
         ("a.fbx", "bundle init"),
         ("a.jt", "STEP"),
         ("a.stl", "bundle init"),
-        ("a.kinefab", "kinefab view"),
         ("a.prefab", "the source"),
     ],
 )

@@ -174,3 +174,83 @@ def test_three_slides_and_a_ball_are_a_free_body(limited: bool):
         for axis, index in zip(slides, step.freedoms):
             assert step.frame_a.rotation[:, index] == pytest.approx(axis.direction)
         assert np.linalg.det(step.frame_a.rotation) == pytest.approx(1.0)
+
+
+def gears() -> kinefab.Scene:
+    """Two gears whose teeth overlap, each on a pin of the base, and a third one beside them that meshes with none."""
+    scene = kinefab.Scene()
+    base = scene.add_part("Base", trimesh.creation.box((0.6, 0.02, 0.3)), translation=(0, -0.05, 0), grounded=True)
+    wheels = [
+        scene.add_part(name, trimesh.creation.cylinder(0.055, 0.02), translation=(x, 0, 0))
+        for name, x in (("Pinion", 0.0), ("Wheel", 0.1), ("Loose", 0.2))
+    ]
+    pins = [
+        scene.cylinder(part, point=(x, 0, 0), axis=(0, 0, 1), radius=0.01)
+        for part in (base, *wheels)
+        for x in ((0.0, 0.1, 0.2) if part == base else (0.1 * wheels.index(part),))
+    ]
+    holes, own = pins[:3], pins[3:]
+    for hole, pin in zip(holes, own):
+        scene.add_constraint("insert", hole, pin)
+    scene.add_constraint("gear", own[0], own[1], value=-1.0)
+    return scene
+
+
+def test_gears_that_mesh_pass_through_each_other(tmp_path: Path):
+    result = kinefab.export(gears(), tmp_path / "gears.kinefab")
+    assert touching(tmp_path / "gears.kinefab") == {frozenset(("Wheel", "Loose")), frozenset(("Pinion", "Loose"))}
+    assert not [
+        d
+        for d in result.report.diagnostics
+        if d.code == "COLLIDERS_OVERLAP" and "Pinion" in d.message and "Wheel" in d.message
+    ]
+
+
+def test_parts_that_are_rigid_with_a_third_pass_through_each_other(tmp_path: Path):
+    """A hub, and two rims that overlap each other, all three held together; a fourth body hangs below the hub."""
+    scene = kinefab.Scene()
+    base = scene.add_part("Base", trimesh.creation.box((0.02, 0.02, 0.3)), translation=(0, 0, -0.5), grounded=True)
+    parts = [
+        scene.add_part(name, trimesh.creation.box((0.1, 0.1, 0.1)), translation=(x, 0, 0))
+        for name, x in (("Hub", 0.0), ("Left", 0.3), ("Right", 0.35), ("Far", 3.0))
+    ]
+    scene.add_hinge(base, parts[0], point=(0, 0, 0), axis=(0, 0, 1), name="Pin")
+    for part in parts[1:]:
+        scene.add_fixed(parts[0], part)
+    kinefab.export(scene, tmp_path / "hub.kinefab")
+    found = touching(tmp_path / "hub.kinefab")
+    assert frozenset(("Left", "Right")) not in found
+    objects = json.loads((tmp_path / "hub.kinefab").read_text(encoding="utf-8"))["gameObjects"]
+    assert [c["extras"]["apart"] for o in objects for c in o.get("components", ()) if "apart" in c.get("extras", {})] == [
+        "held together by FixedJoints"
+    ]
+
+
+def three_links(model: str = "", fore: str = "") -> str:
+    def link(name: str, z: float, more: str = "") -> str:
+        return f"""<link name="{name}"><pose>0 0 {z} 0 0 0</pose><inertial><mass>1</mass></inertial>{more}<collision name="c"><geometry>
+<box><size>.1 .1 .3</size></box></geometry></collision></link>"""
+
+    def pin(parent: str, child: str) -> str:
+        return f"""<joint name="{parent}{child}" type="revolute"><parent>{parent}</parent><child>{child}</child>
+<axis><xyz>0 1 0</xyz></axis></joint>"""
+
+    return f"""<sdf version="1.9"><world name="w"><model name="arm">{model}{link("base", 0)}{link("upper", 0.3)}{link("fore", 0.6, fore)}
+{pin("base", "upper")}{pin("upper", "fore")}</model><model name="crate">{link("box", 3)}</model></world></sdf>"""
+
+
+TRUE = "<self_collide>true</self_collide>"
+FALSE = "<self_collide>false</self_collide>"
+
+
+@pytest.mark.parametrize(
+    ("model", "fore", "collides"),
+    [("", "", False), (TRUE, "", True), (FALSE, TRUE, True), (TRUE, FALSE, True), ("", FALSE, False)],
+)
+def test_links_of_a_model_collide_where_one_of_them_says_so(tmp_path: Path, model: str, fore: str, collides: bool):
+    """SDFormat 1.12: two links collide if one of both has self_collide, which a link has from its model; never across a joint."""
+    (tmp_path / "arm.sdf").write_text(three_links(model, fore), encoding="utf-8")
+    kinefab.export(tmp_path / "arm.sdf", tmp_path / "arm.kinefab")
+    with_crate = {frozenset((f"arm/{name}", "crate/box")) for name in ("base", "upper", "fore")}
+    within = {frozenset(("arm/base", "arm/fore"))} if collides else set()
+    assert touching(tmp_path / "arm.kinefab") == with_crate | within

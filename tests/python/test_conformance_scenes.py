@@ -36,12 +36,14 @@ def test_schema_says_what_the_manifest_says(case, schema):
     assert ("accepts" if accepts else "rejects") == case["schema"]
 
 
-def test_schema_is_stricter_than_the_reader_in_two_things_only():
-    """Unknown fields are warnings in C#, and python's json stops at a byte order mark; nothing else is valid but rejected."""
+def test_schema_is_stricter_than_the_reader_in_three_things_only():
+    """Unknown fields are warnings in C#, and python's json stops at a byte order mark and at a binary file; nothing else is
+    valid but rejected."""
     stricter = {case["path"] for case in CASES if case["expect"] == "valid" and case["schema"] == "rejects"}
     assert stricter == {
         "invalid/component/unknown_field.kinefab",
         "invalid/scene/unknown_field.kinefab",
+        "valid/container/one_file.kinefab",
         "valid/text/byte_order_mark.kinefab",
     }
 

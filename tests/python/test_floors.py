@@ -48,10 +48,11 @@ FLOORS: dict[str, list[set[str]]] = {
         {"__init__"},
     ],
     "unity": [
-        {"frames", "scene"},
-        {"bodies", "assets", "joints", "constraints", "mobility", "back", "standing", "placing"},
+        {"frames", "scene", "definitions", "container"},
+        {"bodies", "assets", "joints", "constraints", "mobility", "standing", "placing"},
         {"mapping", "overlaps", "sums"},
-        {"counting", "links"},
+        {"welded"},
+        {"counting", "links", "back"},
         {"__init__"},
     ],
     "targets": [

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 
+import kinefab
 import pytest
 from command_line import LEVER, run
 from golden import unnamed
@@ -16,13 +17,13 @@ NAMES = ["Eccentric pin", "Shaft", "Slide", "Slider pin"]
 
 
 def test_names_of_the_lever_reach_scene_and_views(tmp_path):
-    """In the extras of each component, in the text and the JSON of inspect, in the picture's legend."""
+    """In each component, in the text and the JSON of inspect, in the picture's legend."""
     scene, picture = tmp_path / "lever.kinefab", tmp_path / "lever.svg"
     assert run("export", LEVER, "-o", scene).returncode == 0
     written = [
         c for o in read(scene)["gameObjects"] for c in o.get("components", []) if c["type"].endswith("Joint")
     ]
-    assert sorted(c["extras"]["name"] for c in written) == NAMES
+    assert sorted(c["name"] for c in written) == NAMES
     told = json.loads(run("inspect", scene, "--json").stdout)["joints"]
     assert sorted(joint["name"] for joint in told) == NAMES
     text = run("inspect", scene).stdout
@@ -49,12 +50,30 @@ def test_a_joint_without_a_name_writes_none(tmp_path, named):
     )
     content, result = exported(scene, tmp_path)
     (written,) = [c for c in content["gameObjects"][0]["components"] if c["type"] == "HingeJoint"]
-    assert written.get("extras") == ({"name": 'Pin "A"'} if named else None)
-    assert "extras" not in unnamed(result.path.read_text("utf-8"))
+    assert written["id"] == "J" and written.get("name") == ('Pin "A"' if named else None)
+    assert content["version"] == "1.1"
+    older = json.loads(unnamed(result.path.read_text("utf-8")))
+    assert older["version"] == "1.0" and "name" not in older["gameObjects"][0]["components"][-1]
 
 
 def test_a_script_names_its_joints(tmp_path):
     """As in the README: the hinge of the lid."""
     content, _ = exported(lid_scene(), tmp_path)
     (hinge,) = [c for o in content["gameObjects"] for c in o["components"] if c["type"] == "HingeJoint"]
-    assert hinge["extras"] == {"name": "Hinge"}
+    assert (hinge["id"], hinge["name"]) == ("Hinge", "Hinge")
+
+
+def test_names_of_format_1_0_are_read_as_before(tmp_path):
+    """They stood in the extras of the component."""
+    path = kinefab.export(lid_scene(), tmp_path / "lid.kinefab").path
+    document = read(path)
+    for entry in document["gameObjects"]:
+        for component in entry.get("components", ()):
+            component.pop("id", None)
+            if name := component.pop("name", None):
+                component["extras"] = {"name": name}
+    document["version"] = "1.0"
+    path.write_text(json.dumps(document), "utf-8")
+    assert kinefab.motion(path).coordinates[0].name == "Hinge"
+    again = read(kinefab.export(path, tmp_path / "again.kinefab").path)
+    assert again["version"] == "1.0" and '{"name": "Hinge"}' in json.dumps(again)

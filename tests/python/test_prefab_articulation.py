@@ -248,16 +248,18 @@ def test_friction_of_a_joint_is_the_link_s(tmp_path):
     assert [float(drive[k]) for k in ("stiffness", "damping", "forceLimit")] == [12.0, 0.5, 7.0]
 
 
-def test_couplings_are_told(tmp_path):
+@pytest.mark.parametrize("scripts", [False, True])
+def test_couplings_are_told_where_no_script_keeps_them(tmp_path, scripts):
     from prefab_scenes import rich_scene
 
     scene = rich_scene(tmp_path)
     scene.joints = [j for j in scene.joints if j.id != "Snap"]
     result = kinefab.export(
-        scene, tmp_path / "Rich.prefab", kinefab.ExportOptions(writing={**ARTICULATED, "scripts": True})
+        scene, tmp_path / "Rich.prefab", kinefab.ExportOptions(writing={**ARTICULATED, "scripts": scripts})
     )
     told = [o.feature for o in result.report.outcomes if o.code == "COUPLING_NOT_IN_PREFAB"]
-    assert told == ["coupling Gear", "coupling Rack"]
+    assert told == ([] if scripts else ["coupling Gear", "coupling Rack"])
+    assert (tmp_path / "Rich.prefab").read_text("ascii").count("MonoBehaviour:") == (2 if scripts else 0)
 
 
 RING = trimesh.creation.annulus(0.05, 0.1, 0.04)

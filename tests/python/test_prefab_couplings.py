@@ -8,6 +8,7 @@ from pathlib import Path
 
 import kinefab
 import pytest
+import trimesh
 from kinefab.targets.prefab.objects.couplings import SCRIPT
 from prefab_reader import Project
 from prefab_scenes import rich_scene
@@ -124,3 +125,48 @@ def test_a_mimic_that_holds_at_the_pose_has_no_offset(tmp_path):
     ]
     assert own["offset"] == "0" and own["drivenCoordinate"] == "1"
     assert float(own["terms"][0]["ratio"]) == pytest.approx(0.2 * 3.141592654 / 180, rel=1e-6)
+
+
+def geared_links(ball: bool = False) -> kinefab.Scene:
+    """A wheel that leads a slide, both links; with ``ball`` a ball joint leads instead."""
+    scene = kinefab.Scene()
+    box = trimesh.creation.box((0.1, 0.2, 0.3))
+    base = scene.add_part("Base", box, grounded=True)
+    wheel = scene.add_part("Wheel", box, translation=(1, 0, 0))
+    slide = scene.add_part("Slide", box, translation=(0, 2, 0))
+    if ball:
+        turn = scene.add_joint("spherical", base, wheel, point=(1, 0, 0), name="Turn")
+    else:
+        turn = scene.add_hinge(wheel, base, point=(1, 0, 0), axis=(0, 0, 1), name="Turn")
+    rail = scene.add_slider(base, slide, axis=(0, 1, 0), point=(0, 2, 0), name="Rail")
+    scene.add_coupling((turn, "rx") if ball else turn, rail, 0.05, name="Rack")
+    return scene
+
+
+@pytest.mark.parametrize("unity", ["2021", "2022", "6"])
+def test_the_script_refers_to_links_of_an_articulation(tmp_path, unity):
+    options = kinefab.ExportOptions(writing={"scripts": True, "physics": "articulation", "unity": unity})
+    result = kinefab.export(geared_links(), tmp_path / "a.prefab", options)
+    assert not any(o.code == "COUPLING_NOT_IN_PREFAB" for o in result.report.outcomes)
+    found = {str(d.file_id): d for d in documents((tmp_path / "a.prefab").read_text("utf-8"))}
+    (fields,) = [d.fields for d in found.values() if d.kind == "MonoBehaviour"]
+    (term,) = fields["terms"]
+    assert fields["driven"] == term["joint"] == {"fileID": "0"}
+    driven, leading = (found[r["fileID"]] for r in (fields["drivenArticulationBody"], term["articulationBody"]))
+    assert driven.kind == leading.kind == "ArticulationBody"
+    assert driven.fields["m_GameObject"] == fields["m_GameObject"]
+    assert (driven.fields["m_ArticulationJointType"], leading.fields["m_ArticulationJointType"]) == ("1", "2")
+    assert (fields["drivenCoordinate"], term["coordinate"]) == ("1", "4")
+    (tmp_path / "k").mkdir()
+    kinefab.export(geared_links(), tmp_path / "k" / "a.kinefab", kinefab.ExportOptions(writing={"physics": "articulation"}))
+    (coupling,) = json.loads((tmp_path / "k" / "a.kinefab").read_text("utf-8"))["couplings"]
+    assert float(term["ratio"]) == pytest.approx(coupling["ratio"], rel=1e-6)
+    assert float(fields["offset"]) == pytest.approx(coupling.get("offset", 0.0), abs=1e-9)
+
+
+def test_a_coupling_with_a_ball_of_an_articulation_is_told(tmp_path):
+    """Whose three coordinates PhysX does not count as a joint's are counted."""
+    options = kinefab.ExportOptions(writing={"scripts": True, "physics": "articulation"})
+    result = kinefab.export(geared_links(ball=True), tmp_path / "a.prefab", options)
+    assert [o.feature for o in result.report.outcomes if o.code == "COUPLING_NOT_IN_PREFAB"] == ["coupling Rack"]
+    assert "MonoBehaviour" not in (tmp_path / "a.prefab").read_text("ascii") and not list(tmp_path.rglob("*.cs"))

@@ -9,6 +9,7 @@ import kinefab
 import numpy as np
 import pytest
 from kinefab.spatial import matrix_from_quaternion
+from kinefab.views.overview import overview, picture
 from test_prefab_articulation import ARTICULATED, BOX, arm, exported, link, mass, nodes_of
 
 VECTORS = {
@@ -65,7 +66,9 @@ def test_a_link_says_which_joint_it_stands_for(tmp_path):
 
 def test_version_is_that_of_what_is_in_the_file(tmp_path):
     assert written(arm(), tmp_path)["version"] == "1.1"
-    assert written(arm(), tmp_path, writing={"physics": "rigidbody"})["version"] == "1.0"
+    bare = kinefab.Scene()
+    bare.add_part("Base", BOX)
+    assert written(bare, tmp_path, writing={"physics": "rigidbody"})["version"] == "1.0"
 
 
 def test_couplings_are_those_of_the_links(tmp_path):
@@ -88,3 +91,22 @@ def test_couplings_are_those_of_the_links(tmp_path):
         assert entry["components"][at["component"]]["type"] == "ArticulationBody"
         assert at["coordinate"] == "angularX"
         assert entry["id"] == plain["gameObjects"][theirs[side]["gameObject"]]["id"]
+
+
+def test_inspect_and_page_show_what_a_link_may_do(tmp_path):
+    """As of the same scene with bodies: between the same two, as far; the page moves by the same coordinates."""
+    told = []
+    for physics in ("rigidbody", "articulation"):
+        options = kinefab.ExportOptions(writing={"physics": physics})
+        path = kinefab.export(arm(), tmp_path / f"{physics}.kinefab", options).path
+        found = json.loads(overview(path, True))
+        joints = [(j["name"], j["object"], j["freedoms"]) for j in found["joints"] if j["freedoms"]]
+        moved = [(c.name, c.unit, c.lower, c.upper) for c in kinefab.motion(path).coordinates]
+        assert any(entry["mass"] not in (None, 1) for entry in found["objects"])
+        told.append((sorted(joints), sorted(moved)))
+        assert "joint" in overview(path, False) and picture(path).startswith("<svg")
+        assert kinefab.view(path, tmp_path / f"{physics}.html").stat().st_size > 10000
+    assert told[0][0] == told[1][0] and len(told[0][0]) > 1
+    assert [c[:2] for c in told[0][1]] == [c[:2] for c in told[1][1]]
+    for one, other in zip(told[0][1], told[1][1]):
+        assert one[2:] == pytest.approx(other[2:])

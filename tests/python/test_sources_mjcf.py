@@ -666,7 +666,7 @@ def test_what_has_no_name_keeps_its_identity_where_others_are_put_in_before_it(t
         path = model(folder, inner, head=mesh, tail=tail)
         scene = json.loads(kinefab.export(path, folder / "m.kinefab").path.read_text("utf-8"))
         joints = {
-            (o["name"], c["extras"]["name"])
+            (o["name"], c["name"])
             for o in scene["gameObjects"]
             for c in o.get("components", ())
             if "Joint" in c["type"] and "name" in c.get("extras", {})

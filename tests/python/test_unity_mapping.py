@@ -182,8 +182,9 @@ def test_scaled_and_placed_bodies_sites_and_layers(tmp_path):
     assert child["transform"]["localScale"] == [1, -2, 3]
     assert component(content, "b", "MeshRenderer")["enabled"] is False
     assert tip["id"] == "Arm/site:tip" and tip["transform"] == {"localPosition": [-0.5, 0, 0]}
-    told = {o.message for o in result.report.outcomes if o.code == "TARGET_FIELD_DROPPED"}
-    assert len(told) == 2 and all("object Arm" in message for message in told)
+    own = next(entry for entry in content["gameObjects"] if entry["id"] == "Arm")
+    assert (own["layer"], own["tag"], content["version"]) == ("robots", "arm", "1.1")
+    assert not any(o.code == "TARGET_FIELD_DROPPED" for o in result.report.outcomes)
 
 
 def test_a_scaled_body_weighs_what_it_is(tmp_path):

@@ -17,6 +17,8 @@ public sealed class ClosesConstraint : Constraint
     public override string Description => $"all joints closed within {Figures.Number(_tolerance)} m and radians";
 
     /// <summary>What may be left, metres and radians; 1e-9 unless stated.</summary>
+    /// <param name="tolerance">Metres and radians, not negative.</param>
+    /// <returns>This constraint, to go on with.</returns>
     public ClosesConstraint Within(double tolerance)
     {
         _tolerance = tolerance >= 0 ? tolerance : throw new ArgumentOutOfRangeException(nameof(tolerance));

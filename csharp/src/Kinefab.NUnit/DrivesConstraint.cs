@@ -28,6 +28,8 @@ public sealed class DrivesConstraint : Constraint
         $"{_driven} goes from {_from} to {_to}{string.Concat(_followers.Select(f => $" and moves {f.Name} by {Figures.Number(f.Stroke)} within {_tolerance}"))}");
 
     /// <summary>Where the drive begins; the exported pose (0) unless stated.</summary>
+    /// <param name="value">Degrees or metres, 0 at the exported pose.</param>
+    /// <returns>This constraint, to go on with.</returns>
     public DrivesConstraint From(double value)
     {
         _from = value;
@@ -35,6 +37,8 @@ public sealed class DrivesConstraint : Constraint
     }
 
     /// <summary>Where it ends; a whole turn (360) unless stated.</summary>
+    /// <param name="value">Degrees or metres, 0 at the exported pose.</param>
+    /// <returns>This constraint, to go on with.</returns>
     public DrivesConstraint To(double value)
     {
         _to = value;
@@ -42,6 +46,8 @@ public sealed class DrivesConstraint : Constraint
     }
 
     /// <summary>Equal steps on the way; 72 unless stated.</summary>
+    /// <param name="steps">1 or more.</param>
+    /// <returns>This constraint, to go on with.</returns>
     public DrivesConstraint Steps(int steps)
     {
         _steps = steps > 0 ? steps : throw new ArgumentOutOfRangeException(nameof(steps));
@@ -49,9 +55,13 @@ public sealed class DrivesConstraint : Constraint
     }
 
     /// <summary>Another coordinate that moves meanwhile.</summary>
+    /// <param name="coordinate">Named as the driven one is.</param>
+    /// <returns>The follower, whose stroke <see cref="Follower.By"/> states.</returns>
     public Follower Moving(string coordinate) => new(this, coordinate ?? throw new ArgumentNullException(nameof(coordinate)));
 
     /// <summary>How far strokes may be off, degrees or metres; 1e-6 unless stated.</summary>
+    /// <param name="tolerance">Degrees or metres, not negative.</param>
+    /// <returns>This constraint, to go on with.</returns>
     public DrivesConstraint Within(double tolerance)
     {
         _tolerance = tolerance >= 0 ? tolerance : throw new ArgumentOutOfRangeException(nameof(tolerance));
@@ -125,6 +135,8 @@ public sealed class DrivesConstraint : Constraint
         }
 
         /// <summary>Its stroke: the largest of its values less the least, degrees or metres.</summary>
+        /// <param name="stroke">Degrees or metres, not negative.</param>
+        /// <returns>The constraint, to go on with.</returns>
         public DrivesConstraint By(double stroke)
         {
             _constraint._followers.Add((_name, stroke));

@@ -42,6 +42,8 @@ public sealed class EnergyConstraint : Constraint
     }
 
     /// <summary>How much it may change: joules, or percent with <see cref="Percent"/> behind it; 0.1 unless stated.</summary>
+    /// <param name="tolerance">Joules or percent, not negative.</param>
+    /// <returns>This constraint, to go on with.</returns>
     public EnergyConstraint Within(double tolerance)
     {
         _tolerance = tolerance >= 0 ? tolerance : throw new ArgumentOutOfRangeException(nameof(tolerance));
@@ -49,6 +51,8 @@ public sealed class EnergyConstraint : Constraint
     }
 
     /// <summary>How long, seconds; 1 unless stated.</summary>
+    /// <param name="seconds">More than 0.</param>
+    /// <returns>This constraint, to go on with.</returns>
     public EnergyConstraint For(double seconds)
     {
         _seconds = seconds > 0 && double.IsFinite(seconds) ? seconds : throw new ArgumentOutOfRangeException(nameof(seconds));
@@ -56,6 +60,8 @@ public sealed class EnergyConstraint : Constraint
     }
 
     /// <summary>Which solver moves it; the exact one unless stated. Unity's own loses energy by its method.</summary>
+    /// <param name="solver">Unity's or the exact one.</param>
+    /// <returns>This constraint, to go on with.</returns>
     public EnergyConstraint By(SolverKind solver)
     {
         _solver = solver;

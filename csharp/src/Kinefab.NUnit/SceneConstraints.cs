@@ -7,5 +7,7 @@ public static class SceneConstraints
     public static ValidSceneConstraint Valid => new();
 
     /// <summary>Freedoms of finite motion, counted from the joints.</summary>
+    /// <param name="freedoms">0 or more.</param>
+    /// <returns>The constraint.</returns>
     public static MobilityConstraint Mobility(int freedoms) => new(freedoms);
 }

@@ -25,6 +25,8 @@ public sealed class TrajectoryConstraint : Constraint
     public override string Description => $"every body where {_path} has it within {Figures.Number(_tolerance)} m and radians";
 
     /// <summary>How far a body may be off, metres and radians; 1e-6 unless stated.</summary>
+    /// <param name="tolerance">Metres and radians, not negative.</param>
+    /// <returns>This constraint, to go on with.</returns>
     public TrajectoryConstraint Within(double tolerance)
     {
         _tolerance = tolerance >= 0 ? tolerance : throw new ArgumentOutOfRangeException(nameof(tolerance));

@@ -37,12 +37,15 @@ from .sources import Stage, read, read_stage
 from .sources.parts.readers import part_readers
 from .targets import check_target, known_endings, target_of, write
 from .targets.content import Content
+from .unity.back.source import WrittenScene
 from .unity.bodies.colliders import Colliders
+from .unity.bodies.mated import with_mated_apart
 from .unity.joints.breaking import with_sound_breaks
 from .unity.mapping import map_scene
 from .unity.overlaps import check_overlaps
 from .unity.scene import Joint as UnityJoint
 from .unity.scene import UnityScene
+from .unity.welded import with_welded_apart
 
 Progress = Callable[[str, float], None]
 """Called with a stage's name and how much of it is done, 0 to 1."""
@@ -158,6 +161,7 @@ def analysed(scene: Scene, options: ExportOptions, report: Report, progress: Pro
     report.extend(found.report)
     exported = with_helpers(found.scene(options.solve))
     groups = rigid_groups(exported, found.fixed)
+    exported = with_mated_apart(exported, groups)
     progress("analyse", 1.0)
     return Analysed(found, exported, groups)
 
@@ -257,12 +261,16 @@ def _enabled(scene: Scene, report: Report) -> Scene:
 
 def _mapped(found: Analysed, options: ExportOptions, links: bool, report: Report) -> UnityScene:
     """links: whether joints make links of the bodies that they join."""
+    if isinstance(found.scene, WrittenScene) and (as_written := found.scene.as_written(links, options)):
+        return as_written
     scene, groups = with_normals(found.scene, options.smooth), found.groups
     convex = ConvexOnly.with_links(scene, groups, options.ground) if links else ConvexOnly()
     made = collision_meshes(found.scene, groups, options.colliders, options.ground, convex, report)
     colliders = Colliders.behind(len(scene.meshes), made, options.colliders, options.ground, convex)
     entry, held = scene_entry(found.analysis), holding(found.analysis)
-    mapped = map_scene(scene, groups, colliders, report, entry, held, found.analysis.findings)
+    mapped = with_welded_apart(
+        map_scene(scene, groups, colliders, report, entry, held, found.analysis.findings)
+    )
     check_overlaps(mapped, report)
     report.settle()
     return mapped

@@ -1,5 +1,6 @@
 // What the library uses of netstandard2.1 and netstandard2.0 lacks, with the same behaviour.
 using System.Collections.Generic;
+using System.IO;
 using System.Linq;
 using System.Security.Cryptography;
 using System.Text;
@@ -46,6 +47,10 @@ namespace System
 
         public static string Replace(this string text, string from, string to, StringComparison comparison) =>
             comparison == StringComparison.Ordinal ? text.Replace(from, to) : throw new NotSupportedException();
+
+        public static bool Contains(this string text, char value) => text.IndexOf(value) >= 0;
+
+        public static void Write(this Stream stream, ReadOnlySpan<byte> bytes) => stream.Write(bytes.ToArray(), 0, bytes.Length);
 
         public static string GetString(this Encoding encoding, ReadOnlySpan<byte> bytes) => encoding.GetString(bytes.ToArray());
 

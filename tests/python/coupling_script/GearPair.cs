@@ -15,7 +15,7 @@ public static partial class GearPair
         CultureInfo.CurrentCulture = CultureInfo.InvariantCulture;
         string how = arguments[0];
         Predicate<string> ends = word => how.EndsWith(word, StringComparison.Ordinal);
-        double worst = ends("turns") ? Several.Turns(how) : ends("terms") ? Several.Terms() : ends("wakes") ? Several.Wakes() : ends("slide") ? Slide.Run(how) : ends("screw") ? Slide.Screw() : how.StartsWith("free") ? Release.Run(how) : Run(how);
+        double worst = how.Contains("link") ? Links.Run(how) : ends("turns") ? Several.Turns(how) : ends("terms") ? Several.Terms() : ends("wakes") ? Several.Wakes() : ends("slide") ? Slide.Run(how) : ends("screw") ? Slide.Screw() : how.StartsWith("free") ? Release.Run(how) : Run(how);
         Console.WriteLine(worst.ToString("R"));
         return 0;
     }

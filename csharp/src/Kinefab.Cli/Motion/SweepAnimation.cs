@@ -1,10 +1,6 @@
 using System;
 using System.Collections.Generic;
-using System.IO;
 using System.Linq;
-using System.Text.Encodings.Web;
-using System.Text.Json;
-using System.Text.Json.Nodes;
 using Kinefab.Diagnostics;
 using Kinefab.Document;
 using Kinefab.Kinematics;
@@ -19,26 +15,17 @@ internal static class SweepAnimation
     private const double Seconds = 4;
 
     /// <summary>Adds the clip, or replaces the one of the same name; the report says what kept it from being written.</summary>
-    internal static Report Write(string path, Mechanism mechanism, SweepResult sweep, string name) => TargetFile.Write(path, target =>
+    internal static Report Write(string path, Mechanism mechanism, SweepResult sweep, string name)
     {
-        var scene = (JsonObject)JsonNode.Parse(File.ReadAllText(path))!;
-        if (scene["animations"] is not JsonArray animations)
-            scene["animations"] = animations = [];
-        for (int i = animations.Count - 1; i >= 0; i--)
-        {
-            if (animations[i]?["name"]?.GetValue<string>() == name)
-                animations.RemoveAt(i);
-        }
+        SceneDocument document = mechanism.Scene.Document;
+        AnimationClip[] animations = [.. document.Animations.Where(clip => clip.Name != name), Clip(mechanism, sweep, name)];
+        return TargetFile.Write(path, target => SceneFile.Save(document with { Animations = animations }, target));
+    }
 
-        animations.Add(Clip(mechanism, sweep, name));
-        using var text = new StreamWriter(target, leaveOpen: true);
-        text.Write(scene.ToJsonString(new JsonSerializerOptions { WriteIndented = true, NewLine = "\n", Encoder = JavaScriptEncoder.UnsafeRelaxedJsonEscaping }) + "\n");
-    });
-
-    private static JsonObject Clip(Mechanism mechanism, SweepResult sweep, string name)
+    private static AnimationClip Clip(Mechanism mechanism, SweepResult sweep, string name)
     {
         int last = Math.Max(1, sweep.States.Count - 1);
-        var tracks = new JsonArray();
+        List<AnimationTrack> tracks = [];
         for (int i = 0; i < mechanism.Scene.Document.GameObjects.Count; i++)
         {
             if (mechanism.Scene.Body(i) is null)
@@ -49,20 +36,20 @@ internal static class SweepAnimation
             bool turns = local.Any(p => Math.Abs(p.Rotation.X - local[0].Rotation.X) + Math.Abs(p.Rotation.Y - local[0].Rotation.Y) + Math.Abs(p.Rotation.Z - local[0].Rotation.Z) > 1e-9);
             if (!moves && !turns)
                 continue;
-            var track = new JsonObject { ["gameObject"] = i };
-            if (moves)
-                track["localPosition"] = new JsonArray([.. local.Select(p => (JsonNode)new JsonArray(p.Position.X, p.Position.Y, p.Position.Z))]);
-            if (turns)
-                track["localRotation"] = new JsonArray([.. Continuous(local).Select(q => (JsonNode)new JsonArray(q.X, q.Y, q.Z, q.W))]);
-            tracks.Add(track);
+            tracks.Add(new AnimationTrack
+            {
+                GameObject = i,
+                LocalPosition = moves ? [.. local.Select(p => p.Position)] : [],
+                LocalRotation = turns ? [.. Continuous(local)] : [],
+            });
         }
 
-        return new JsonObject
+        return new AnimationClip
         {
-            ["name"] = name,
-            ["times"] = new JsonArray([.. sweep.States.Select((_, i) => (JsonNode)JsonValue.Create(Seconds * i / last))]),
-            ["wrapMode"] = "PingPong",
-            ["tracks"] = tracks,
+            Name = name,
+            Times = [.. sweep.States.Select((_, i) => Seconds * i / last)],
+            WrapMode = WrapMode.PingPong,
+            Tracks = tracks,
         };
     }
 

@@ -20,6 +20,7 @@ public static class StabilityAdvice
     /// <param name="scene">A scene that was read from a text: changes are made in it as in the file.</param>
     /// <param name="options">Null: the default ones.</param>
     /// <param name="cancellation">Ends the runs early.</param>
+    /// <returns>What was measured, and the changes that mend it, best first.</returns>
     /// <exception cref="ArgumentException">The scene was not read from a text, or the seconds are no positive finite number.</exception>
     /// <exception cref="OperationCanceledException">It was cancelled.</exception>
     /// <example><code>

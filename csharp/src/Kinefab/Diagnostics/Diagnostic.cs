@@ -23,6 +23,7 @@ public sealed class Diagnostic
     /// <param name="code">One of <see cref="DiagnosticCodes"/>.</param>
     /// <param name="place">JSON pointer (RFC 6901) of the place; empty: the file as a whole.</param>
     /// <param name="values">What the words leave open, by name.</param>
+    /// <returns>Without line and column.</returns>
     /// <exception cref="ArgumentException">There is no such code.</exception>
     public static Diagnostic Of(string code, string place, params (string Name, string Value)[] values)
     {

@@ -36,6 +36,12 @@ public static class DiagnosticCodes
     /// <summary>{count} more findings are not listed.</summary>
     public const string FindingsOmitted = "FINDINGS_OMITTED";
 
+    /// <summary>The binary scene file is damaged: {detail}.</summary>
+    public const string ContainerInvalid = "CONTAINER_INVALID";
+
+    /// <summary>The binary scene file is of version {version}; this library reads version 1.</summary>
+    public const string ContainerVersionUnsupported = "CONTAINER_VERSION_UNSUPPORTED";
+
     /// <summary>The format is "{format}", not "kinefab.scene".</summary>
     public const string FormatUnknown = "FORMAT_UNKNOWN";
 

@@ -23,6 +23,8 @@ public sealed class Report
     public bool HasErrors => Count(Severity.Error) > 0;
 
     /// <summary>How many there are of a severity.</summary>
+    /// <param name="severity">Just this one, not the graver ones.</param>
+    /// <returns>0 or more.</returns>
     public int Count(Severity severity) => Diagnostics.Count(found => found.Severity == severity);
 
     /// <summary>1 error, 2 warnings; or no findings; the first one behind it.</summary>
@@ -39,6 +41,7 @@ public sealed class Report
 
     /// <summary>These findings, then those of another report.</summary>
     /// <param name="other">Not changed.</param>
+    /// <returns>A new report; neither of the two changes.</returns>
     public Report Concat(Report other)
     {
         if (other is null)

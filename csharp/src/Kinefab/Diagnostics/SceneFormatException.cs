@@ -7,6 +7,7 @@ namespace Kinefab.Diagnostics;
 public sealed class SceneFormatException : Exception
 {
     /// <summary>From a report with errors.</summary>
+    /// <param name="report">Its errors become the message, one a line.</param>
     public SceneFormatException(Report report)
         : base(Describe(report))
     {

@@ -1,8 +1,7 @@
-using Kinefab.Json;
-
 namespace Kinefab.Document;
 
 /// <summary>One of three axes.</summary>
+[Words]
 public enum Axis
 {
     /// <summary>First.</summary>
@@ -13,10 +12,4 @@ public enum Axis
 
     /// <summary>Third.</summary>
     Z,
-}
-
-/// <summary>The words of the scene file for <see cref="Axis"/>.</summary>
-internal static class AxisWords
-{
-    internal static readonly Words<Axis> Table = new(("X", Axis.X), ("Y", Axis.Y), ("Z", Axis.Z));
 }

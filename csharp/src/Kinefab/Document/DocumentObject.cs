@@ -1,5 +1,6 @@
 using System.Diagnostics;
 using System;
+using Kinefab.Json;
 
 namespace Kinefab.Document;
 
@@ -16,6 +17,9 @@ public abstract record DocumentObject
 
     /// <summary>The object's <c>extras</c> as raw JSON text, kept as it stood and never interpreted; null when there are none.</summary>
     public string? ExtrasJson { get; init; }
+
+    /// <summary>Writes it as a JSON object, less the fields at their defaults.</summary>
+    internal abstract void Write(JsonWriter json);
 
     /// <summary>What it is, in one line with units.</summary>
     public sealed override string ToString() => Describe();

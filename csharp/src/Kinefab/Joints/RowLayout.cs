@@ -49,6 +49,9 @@ internal readonly struct RowLayout
     /// <summary>Rows of limits: cone or swing, twist, distance.</summary>
     public int Limits => (HasCone ? 1 : 0) + SwingLimits + TwistLimits + (HasDistance ? 1 : 0);
 
+    /// <summary>Whether the joint never has a row: it only keeps bodies from colliding, or lends its coordinates to a coupling.</summary>
+    public bool IsEmpty => (Locked | Limited) == 0 && Drives == 0;
+
     /// <summary>The same number for the same rows.</summary>
     public int Signature => Locked | (Limited << 6) | (LinearDrives << 12) | (AngularDrives << 16) | (IsSlerp ? 1 << 20 : 0);
 }

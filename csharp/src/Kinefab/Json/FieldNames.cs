@@ -10,15 +10,13 @@ internal sealed class FieldNames
     private readonly byte[][] utf8;
     private readonly sbyte[] slots;
 
-    /// <summary>At most 64 names.</summary>
-    internal FieldNames(string[] required, params string[] optional)
+    /// <summary>At most 64 names, and which of them an object must have: bit i stands for name i.</summary>
+    internal FieldNames(ulong required, params string[] names)
     {
-        names = new string[required.Length + optional.Length];
-        required.CopyTo(names, 0);
-        optional.CopyTo(names, required.Length);
         if (names.Length > 64)
-            throw new ArgumentException("More than 64 fields do not fit the set of seen ones.", nameof(optional));
-        Required = required.Length == 64 ? ulong.MaxValue : (1UL << required.Length) - 1;
+            throw new ArgumentException("More than 64 fields do not fit the set of seen ones.", nameof(names));
+        this.names = names;
+        Required = required;
         utf8 = new byte[names.Length][];
         slots = new sbyte[512];
         Array.Fill(slots, (sbyte)-1);

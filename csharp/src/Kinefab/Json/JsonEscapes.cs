@@ -69,6 +69,12 @@ internal static class JsonEscapes
                 case '"' or '\\':
                     text.Append('\\').Append(c);
                     break;
+                case '\b':
+                    text.Append("\\b");
+                    break;
+                case '\f':
+                    text.Append("\\f");
+                    break;
                 case '\n':
                     text.Append("\\n");
                     break;

@@ -43,11 +43,11 @@ internal sealed class CoordinateNames
         _coordinates = coordinates;
         _names = new SceneNames(objects, coordinates.Select(Place));
         _moving = Enumerable.Range(0, coordinates.Length).Where(i => !coordinates[i].IsLocked).ToArray();
-        var freedoms = new Dictionary<int, int>();
+        var freedoms = new Dictionary<(int GameObject, int Component), int>();
         foreach (CoordinatePlace coordinate in coordinates)
         {
-            freedoms.TryGetValue(coordinate.GameObject, out int count);
-            freedoms[coordinate.GameObject] = count + (coordinate.IsLocked ? 0 : 1);
+            freedoms.TryGetValue((coordinate.GameObject, coordinate.Component), out int count);
+            freedoms[(coordinate.GameObject, coordinate.Component)] = count + (coordinate.IsLocked ? 0 : 1);
         }
 
         _full = new string[coordinates.Length];
@@ -57,7 +57,7 @@ internal sealed class CoordinateNames
             string joint = _names.Joint(coordinate.GameObject, coordinate.Component);
             _full[i] = $"{joint}.{Words[(int)coordinate.Coordinate]}";
             _found.TryAdd(_full[i], i);
-            if (!coordinate.IsLocked && freedoms[coordinate.GameObject] == 1)
+            if (!coordinate.IsLocked && freedoms[(coordinate.GameObject, coordinate.Component)] == 1)
             {
                 _found.TryAdd(joint, i);
             }
@@ -71,6 +71,15 @@ internal sealed class CoordinateNames
 
     /// <summary>What a coordinate is called in files and messages.</summary>
     public string this[int coordinate] => _full[coordinate];
+
+    /// <summary>The CAD's name if it finds the coordinate, with the coordinate behind it where the joint has several; else the joint's; else the full name.</summary>
+    public string Short(int coordinate)
+    {
+        CoordinatePlace place = _coordinates[coordinate];
+        string cad = _names.NameInCad(place.GameObject, place.Component) ?? "";
+        string[] names = { cad, $"{cad}.{Words[(int)place.Coordinate]}", _names.Joint(place.GameObject, place.Component) };
+        return Array.Find(names, name => _found.TryGetValue(name, out int found) && found == coordinate) ?? _full[coordinate];
+    }
 
     /// <summary>As <see cref="SceneNames.GameObject"/>.</summary>
     public int GameObject(string name, out IReadOnlyList<string> several) => _names.GameObject(name, out several);

@@ -14,6 +14,8 @@ public readonly struct Pose : IEquatable<Pose>
     public Quaterniond Rotation { get; }
 
     /// <summary>From position and unit rotation.</summary>
+    /// <param name="position">Origin of the inner frame in the outer one, metres.</param>
+    /// <param name="rotation">From the inner frame to the outer one; of length 1.</param>
     public Pose(Vector3d position, Quaterniond rotation)
     {
         Position = position;
@@ -24,6 +26,7 @@ public readonly struct Pose : IEquatable<Pose>
     public static Pose Identity => new(Vector3d.Zero, Quaterniond.Identity);
 
     /// <summary>The pose of the outer frame in the inner one.</summary>
+    /// <returns>The pose that gives the identity when multiplied with this one.</returns>
     public Pose Inverse()
     {
         Quaterniond inverse = Rotation.Conjugate();
@@ -34,9 +37,13 @@ public readonly struct Pose : IEquatable<Pose>
     public static Pose operator *(Pose a, Pose b) => new(a.Rotation * b.Position + a.Position, a.Rotation * b.Rotation);
 
     /// <summary>A point of the inner frame in the outer one.</summary>
+    /// <param name="p">Metres, in the inner frame.</param>
+    /// <returns>Metres, in the outer frame.</returns>
     public Vector3d Point(Vector3d p) => Rotation * p + Position;
 
     /// <summary>A point of the outer frame in the inner one.</summary>
+    /// <param name="p">Metres, in the outer frame.</param>
+    /// <returns>Metres, in the inner frame.</returns>
     public Vector3d InversePoint(Vector3d p) => Rotation.InverseRotate(p - Position);
 
     /// <summary>Exact equality of all components.</summary>

@@ -22,6 +22,10 @@ public readonly struct Quaterniond : IEquatable<Quaterniond>
     public double W { get; }
 
     /// <summary>From components; not normalised.</summary>
+    /// <param name="x">First component of the vector part.</param>
+    /// <param name="y">Second component of the vector part.</param>
+    /// <param name="z">Third component of the vector part.</param>
+    /// <param name="w">Scalar part.</param>
     public Quaterniond(double x, double y, double z, double w)
     {
         X = x;
@@ -40,10 +44,12 @@ public readonly struct Quaterniond : IEquatable<Quaterniond>
     public double LengthSquared => X * X + Y * Y + Z * Z + W * W;
 
     /// <summary>The inverse of a unit quaternion.</summary>
+    /// <returns>(-x, -y, -z, w).</returns>
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
     public Quaterniond Conjugate() => new(-X, -Y, -Z, W);
 
     /// <summary>The same rotation with length 1; zero becomes the identity.</summary>
+    /// <returns>A unit quaternion.</returns>
     public Quaterniond Normalized()
     {
         double length = Math.Sqrt(LengthSquared);
@@ -51,6 +57,9 @@ public readonly struct Quaterniond : IEquatable<Quaterniond>
     }
 
     /// <summary>Rotation by <paramref name="angle"/> radians about a unit <paramref name="axis"/>.</summary>
+    /// <param name="axis">Of length 1.</param>
+    /// <param name="angle">Radians; clockwise as seen along the axis in Unity's left-handed frame, counter-clockwise in a right-handed one.</param>
+    /// <returns>A unit quaternion.</returns>
     public static Quaterniond AxisAngle(Vector3d axis, double angle)
     {
         double s = Math.Sin(angle / 2);
@@ -58,6 +67,10 @@ public readonly struct Quaterniond : IEquatable<Quaterniond>
     }
 
     /// <summary>The rotation whose axes are the given unit vectors (columns of its matrix), w not negative.</summary>
+    /// <param name="x">Where the first axis is turned to; of length 1.</param>
+    /// <param name="y">Where the second axis is turned to; at right angles to the first.</param>
+    /// <param name="z">Where the third axis is turned to: the product of the other two.</param>
+    /// <returns>A unit quaternion.</returns>
     public static Quaterniond FromAxes(Vector3d x, Vector3d y, Vector3d z)
     {
         double trace = x.X + y.Y + z.Z;
@@ -101,6 +114,8 @@ public readonly struct Quaterniond : IEquatable<Quaterniond>
     }
 
     /// <summary>The vector turned by the inverse of a unit quaternion.</summary>
+    /// <param name="v">In the outer frame.</param>
+    /// <returns>The same vector in the inner frame.</returns>
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
     public Vector3d InverseRotate(Vector3d v) => Conjugate() * v;
 

@@ -19,6 +19,9 @@ public readonly struct Vector3d : IEquatable<Vector3d>
     public double Z { get; }
 
     /// <summary>From components.</summary>
+    /// <param name="x">First component.</param>
+    /// <param name="y">Second component.</param>
+    /// <param name="z">Third component.</param>
     public Vector3d(double x, double y, double z)
     {
         X = x;
@@ -39,6 +42,7 @@ public readonly struct Vector3d : IEquatable<Vector3d>
     public static Vector3d UnitZ => new(0, 0, 1);
 
     /// <summary>Component 0, 1 or 2.</summary>
+    /// <param name="index">0, 1 or 2.</param>
     public double this[int index] => index switch { 0 => X, 1 => Y, 2 => Z, _ => throw new ArgumentOutOfRangeException(nameof(index)) };
 
     /// <summary>Squared length.</summary>
@@ -55,6 +59,7 @@ public readonly struct Vector3d : IEquatable<Vector3d>
     internal Vector3d FiniteOrThrow(string name) => IsFinite ? this : throw new ArgumentOutOfRangeException(name, "Not finite numbers.");
 
     /// <summary>The same direction with length 1; zero stays zero.</summary>
+    /// <returns>Of length 1, or zero.</returns>
     public Vector3d Normalized()
     {
         double length = Length;
@@ -62,15 +67,24 @@ public readonly struct Vector3d : IEquatable<Vector3d>
     }
 
     /// <summary>Scalar product.</summary>
+    /// <param name="a">Left factor.</param>
+    /// <param name="b">Right factor, in the same frame.</param>
+    /// <returns>The product of the lengths and the cosine between.</returns>
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
     public static double Dot(Vector3d a, Vector3d b) => a.X * b.X + a.Y * b.Y + a.Z * b.Z;
 
     /// <summary>Vector product by the component formula (right-hand rule in a right-handed picture, left-hand in Unity's).</summary>
+    /// <param name="a">Left factor.</param>
+    /// <param name="b">Right factor, in the same frame.</param>
+    /// <returns>At right angles to both; its length is theirs by the sine between.</returns>
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
     public static Vector3d Cross(Vector3d a, Vector3d b) =>
         new(a.Y * b.Z - a.Z * b.Y, a.Z * b.X - a.X * b.Z, a.X * b.Y - a.Y * b.X);
 
     /// <summary>Component by component product.</summary>
+    /// <param name="a">Left factor.</param>
+    /// <param name="b">Right factor.</param>
+    /// <returns>(a.x b.x, a.y b.y, a.z b.z).</returns>
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
     public static Vector3d Scale(Vector3d a, Vector3d b) => new(a.X * b.X, a.Y * b.Y, a.Z * b.Z);
 
@@ -78,6 +92,8 @@ public readonly struct Vector3d : IEquatable<Vector3d>
     /// A unit vector at right angles to a unit vector: the product of Z with it, or of X within 45 degrees of Z, which is the one
     /// that Unity's Vector3.OrthoNormalize gives.
     /// </summary>
+    /// <param name="unit">Of length 1.</param>
+    /// <returns>Of length 1.</returns>
     public static Vector3d Perpendicular(Vector3d unit) =>
         Cross(Math.Abs(unit.Z) > Math.Sqrt(0.5) ? UnitX : UnitZ, unit).Normalized();
 

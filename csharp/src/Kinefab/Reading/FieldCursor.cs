@@ -9,8 +9,8 @@ internal struct FieldCursor
     internal readonly long Start;
     internal ulong Seen;
 
-    /// <summary>The field whose value comes next.</summary>
-    internal string Name;
+    /// <summary>Which of the names has the field whose value comes next.</summary>
+    internal int Index;
 
     /// <summary>No names: there is no object, so there are no fields.</summary>
     internal FieldCursor(FieldNames? names, long start)
@@ -18,6 +18,6 @@ internal struct FieldCursor
         Names = names;
         Start = start;
         Seen = 0;
-        Name = "";
+        Index = -1;
     }
 }

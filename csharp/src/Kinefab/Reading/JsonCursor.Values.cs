@@ -208,6 +208,8 @@ internal ref partial struct JsonCursor
 
             if (count == pooled.Length)
                 pooled = Grow(pooled);
+            if (count % ReadingProgress.ItemsBetweenLooks == 0)
+                progress.Look(Offset, text.Length);
             pooled[count++] = item(ref this);
         }
         while (NextItem());

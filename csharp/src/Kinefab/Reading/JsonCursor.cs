@@ -16,18 +16,20 @@ internal ref partial struct JsonCursor
     private readonly Findings findings;
     private readonly Severity unknownFields;
     private readonly int maxItems;
+    private readonly ReadingProgress progress;
     private Utf8Tokenizer reader;
 
     /// <summary>Start of the object whose <c>type</c> was read ahead of its other fields, or -1.</summary>
     private long typedStart;
 
     /// <summary>On the text's first token.</summary>
-    internal JsonCursor(ReadOnlySpan<byte> text, Findings findings, int maxItems, int maxDepth, bool strict)
+    internal JsonCursor(ReadOnlySpan<byte> text, Findings findings, int maxItems, int maxDepth, bool strict, ReadingProgress progress = default)
     {
         this.text = text;
         this.findings = findings;
         unknownFields = strict ? Severity.Error : Severity.Warning;
         this.maxItems = maxItems;
+        this.progress = progress;
         reader = new Utf8Tokenizer(text, maxDepth);
         typedStart = -1;
         reader.Read();
@@ -70,7 +72,7 @@ internal ref partial struct JsonCursor
             if (index >= 0 && (fields.Seen & bit) == 0)
             {
                 fields.Seen |= bit;
-                fields.Name = fields.Names[index];
+                fields.Index = index;
                 reader.Read();
                 return true;
             }

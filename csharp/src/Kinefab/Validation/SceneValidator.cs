@@ -16,6 +16,7 @@ public static class SceneValidator
     /// <param name="document">A scene as it was read or made.</param>
     /// <param name="limits">Of the number of findings; null: the default ones.</param>
     /// <param name="cancellation">Ends the validation early, with an OperationCanceledException.</param>
+    /// <returns>The report, and the scene where it holds no error.</returns>
     /// <exception cref="OperationCanceledException">It was cancelled.</exception>
     public static SceneValidation Validate(SceneDocument document, SceneLimits? limits = null, CancellationToken cancellation = default)
     {
@@ -194,7 +195,7 @@ public static class SceneValidator
         for (int i = 0; i < usable.Length; i++)
         {
             cancellation.ThrowIfCancellationRequested();
-            usable[i] = BufferRules.Check(document.Buffers[i], new Place(findings, "buffers", i));
+            usable[i] = BufferRules.Check(document.Buffers[i], new Place(findings, "buffers", i), cancellation);
         }
 
         for (int i = 0; i < document.Meshes.Count; i++)

@@ -25,7 +25,7 @@ public sealed partial class ValidScene
         Of(SceneFile.Load(path, options, cancellation), options, cancellation);
 
     /// <summary>Reads and validates what a stream holds from where it stands to its end; the stream stays open.</summary>
-    /// <param name="json">The text of a scene, UTF-8; need not be seekable.</param>
+    /// <param name="json">A scene as text, UTF-8, or binary; need not be seekable.</param>
     /// <param name="buffers">Gives the bytes of a buffer by its uri, or null when there are none; null: there are no buffers.</param>
     /// <param name="options">Null: unknown fields are warnings, limits the default ones.</param>
     /// <param name="cancellation">Ends the reading early.</param>
@@ -35,8 +35,8 @@ public sealed partial class ValidScene
     public static ValidScene Load(Stream json, Func<string, ReadOnlyMemory<byte>?>? buffers = null, SceneReadOptions? options = null, CancellationToken cancellation = default) =>
         Of(SceneFile.Load(json, buffers, options, cancellation), options, cancellation);
 
-    /// <summary>Reads and validates a text in memory, which is copied.</summary>
-    /// <param name="json">The text of a scene, UTF-8.</param>
+    /// <summary>Reads and validates a file in memory, which is copied.</summary>
+    /// <param name="json">A scene as text, UTF-8, or binary.</param>
     /// <param name="buffers">Gives the bytes of a buffer by its uri, or null when there are none; null: there are no buffers.</param>
     /// <param name="options">Null: unknown fields are warnings, limits the default ones.</param>
     /// <param name="cancellation">Ends the reading early.</param>
@@ -49,7 +49,7 @@ public sealed partial class ValidScene
     public static ValidScene Load(ReadOnlyMemory<byte> json, Func<string, ReadOnlyMemory<byte>?>? buffers = null, SceneReadOptions? options = null, CancellationToken cancellation = default)
     {
         cancellation.ThrowIfCancellationRequested();
-        return Of(SceneFile.Parse(json.Span, buffers, options), options, cancellation);
+        return Of(SceneFile.Parse(json.Span, buffers, options, cancellation), options, cancellation);
     }
 
     private static ValidScene Of(SceneReading reading, SceneReadOptions? options, CancellationToken cancellation)

@@ -30,11 +30,13 @@ public sealed partial class ValidScene
 
     /// <summary>Pose and scale of a GameObject in the world, as exported; metres.</summary>
     /// <param name="gameObject">Index of the GameObject.</param>
+    /// <returns>Unity's left-handed frame, metres.</returns>
     /// <exception cref="ArgumentOutOfRangeException">There is no such GameObject.</exception>
     public WorldTransform WorldTransform(int gameObject) => world[Index(gameObject)];
 
     /// <summary>The numbers of a mesh.</summary>
     /// <param name="mesh">Index of the mesh.</param>
+    /// <returns>Positions in metres, in the frame of the GameObject that shows the mesh.</returns>
     /// <exception cref="ArgumentOutOfRangeException">There is no such mesh.</exception>
     public MeshData Mesh(int mesh) =>
         new(Document, (uint)mesh < (uint)Document.Meshes.Count ? Document.Meshes[mesh] : throw new ArgumentOutOfRangeException(nameof(mesh), $"The scene has {Document.Meshes.Count} meshes."));
@@ -42,6 +44,7 @@ public sealed partial class ValidScene
     /// <summary>What a joint leaves to its own body.</summary>
     /// <param name="gameObject">Index of the GameObject that carries the joint.</param>
     /// <param name="component">Index of the joint in its components.</param>
+    /// <returns>One entry a free or limited motion; none where all six are locked.</returns>
     /// <exception cref="ArgumentOutOfRangeException">There is no such GameObject or component, or it is no joint.</exception>
     public IReadOnlyList<JointFreedom> Freedoms(int gameObject, int component)
     {
@@ -55,16 +58,19 @@ public sealed partial class ValidScene
 
     /// <summary>The Rigidbody of a GameObject, or its ArticulationBody as one; null when it has neither.</summary>
     /// <param name="gameObject">Index of the GameObject.</param>
+    /// <returns>The component as the file states it: kg, metres, radians per second; null without one.</returns>
     /// <exception cref="ArgumentOutOfRangeException">There is no such GameObject.</exception>
     public Rigidbody? Body(int gameObject) => Document.GameObjects[Index(gameObject)].Body;
 
     /// <summary>Whether a GameObject's ArticulationBody is the root of its articulation; false without one.</summary>
     /// <param name="gameObject">Index of the GameObject.</param>
+    /// <returns>True for the one link of an articulation that hangs on no other.</returns>
     /// <exception cref="ArgumentOutOfRangeException">There is no such GameObject.</exception>
     public bool IsRootLink(int gameObject) => Document.GameObjects[Index(gameObject)].Link is not null && LinkJoint.Parent(Document, gameObject) is null;
 
     /// <summary>The GameObject whose Rigidbody moves this one: itself or its nearest ancestor that has one; null: nothing does.</summary>
     /// <param name="gameObject">Index of the GameObject.</param>
+    /// <returns>Index of a GameObject, or null.</returns>
     /// <exception cref="ArgumentOutOfRangeException">There is no such GameObject.</exception>
     public int? BodyOf(int gameObject)
     {
@@ -76,6 +82,7 @@ public sealed partial class ValidScene
 
     /// <summary>The joint that a coupling refers to.</summary>
     /// <param name="coordinate">One end of a coupling.</param>
+    /// <returns>The component, on the GameObject that the reference names.</returns>
     /// <exception cref="ArgumentOutOfRangeException">It names no joint of this scene.</exception>
     public Joint Joint(JointCoordinate coordinate)
     {

@@ -15,8 +15,9 @@ from . import places
 from .job import Job, Outcome, Record, unmade
 from .ledger import LEDGER, is_ours
 
-VAGUE = (".json", ".txt", ".xml")
-"""Endings that most files bear for other reasons: in a folder they count only where the format looks into the file."""
+VAGUE = (".json", ".txt", ".xml", ".kinefab")
+"""Endings that most files bear for other reasons: in a folder they count only where the format looks into the file, and a scene,
+which mostly was made of another one there, only where it is named."""
 
 
 NAMED = 3

@@ -19,7 +19,8 @@ def inspect(
 ) -> None:
     """Show a scene's objects, joints, freedoms and losses."""
     exported = file.name.endswith(tuple(ending for ending in known_endings() if ending != ".kinefab"))
-    if exported or format_of(file) is not None:
+    kind = format_of(file)
+    if exported or (kind is not None and ".kinefab" not in kind.suffixes):
         told = f"{file} is no NAME.kinefab; export to one, or read the source by 'kinefab analyse'"
         raise typer.BadParameter(told, param_hint="FILE")
     from ..views.overview import overview

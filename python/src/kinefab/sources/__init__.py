@@ -97,6 +97,7 @@ FORMATS = (
         requires=("mujoco",),
         extra="mujoco",
     ),
+    Format("Kinefab scene", (".kinefab",), ".unity.back.source"),
 )
 """In the order of preference."""
 

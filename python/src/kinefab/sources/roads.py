@@ -30,13 +30,9 @@ JSON = (
 )
 XML = "This XML is none that is read: its root is neither mujoco (MJCF) nor SimscapeMultibodyImportXML (Simscape Multibody 2.0)."
 
-WRITTEN = (
-    "It was exported already: kinefab view or kinefab inspect show it; give the source that it was made of."
-)
-UNITY = "Unity's own file, which is written and not read: give the source that it was made of."
+UNITY = "Unity's own file, which is written and not read: give the source, or the .kinefab, that it was made of."
 
 ROADS = {
-    ".kinefab": WRITTEN,
     **dict.fromkeys((".prefab", ".unitypackage", ".unity"), UNITY),
     ".json": JSON,
     ".xml": XML,

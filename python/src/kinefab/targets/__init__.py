@@ -47,10 +47,15 @@ SCRIPTS = FormatOption("scripts", "Add a script that keeps the couplings (gears,
 PHYSICS = FormatOption(
     "physics", "What moves the bodies, rigidbody unless said.", words=("rigidbody", "articulation")
 )
+CONTAINER = FormatOption(
+    "container",
+    "A .kinefab as text with its buffer beside it, as unless said, or as one binary file.",
+    words=("text", "binary"),
+)
 PREFAB_OPTIONS = (UNITY, PIPELINE, SCRIPTS, PHYSICS)
 
 TARGETS = (
-    Target("Kinefab scene", (".kinefab",), "kinefab_file", (PHYSICS,)),
+    Target("Kinefab scene", (".kinefab",), "kinefab_file", (PHYSICS, CONTAINER)),
     Target("Unity prefab", (".prefab",), "prefab", PREFAB_OPTIONS),
     Target("glTF 2.0", (".glb",), "gltf"),
     Target("USD", (".usda", ".usdc", ".usdz"), "usd", requires=("pxr",), extra="usd"),

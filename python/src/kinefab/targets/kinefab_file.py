@@ -1,7 +1,7 @@
-"""Writes ``NAME.kinefab`` and its buffer so that whoever reads, and whenever the writer is killed, there is
+"""Writes ``NAME.kinefab`` and its buffer, as two files or as one, so that whoever reads, and whenever the writer is killed, there is
 either the old pair or the new one.
 
-The buffer's name holds its hash, so a new buffer never stands in an old one's place.  Both are written beside
+As two files: the buffer's name holds its hash, so a new buffer never stands in an old one's place.  Both are written beside
 their places (fsync), then the buffer is renamed, then the scene that names it, then old buffers go.
 """
 
@@ -23,17 +23,18 @@ from .. import __version__, model
 from ..diagnostics import KinefabError, Report, is_encodable
 from ..replacing import beside, one_at_a_time, remove_leftovers, replacing, sync_directory
 from ..spatial import bounds
+from ..unity.container import write_container
 from ..unity.counting import with_led_joints_on_light_bodies
 from ..unity.links.tree import articulated
-from ..unity.scene import ArticulationBody, BodyFreedom, Component, Coupling, GameObject, Joint, Mesh, Mobility, UnityScene
+from ..unity.scene import BodyFreedom, Component, Coupling, GameObject, Joint, Mesh, Mobility, UnityScene
 from ..unity.sums import with_one_term_each
 from .content import Content
-from .noun_entry import Noun, entry, unsaid
-from .numbers import plain_value, significant
+from .noun_entry import Noun, entry, needs_newer, unsaid
+from .numbers import plain_value, significant, whole_numbers
 
 FORMAT_VERSION = "1.0"
-LINKS_VERSION = "1.1"
-"""Of a scene with ArticulationBodies, which 1.0 has no word for."""
+NEWER_VERSION = "1.1"
+"""Of a scene that says what 1.0 has no field for, as the schema marks it (``since``), and of one with its buffer in one file."""
 UINT16_VERTICES = 65535
 """Most vertices that Unity's 16-bit index format counts."""
 HASH_DIGITS = 16
@@ -75,17 +76,26 @@ def write(content: Content, target: Path) -> tuple[Path, ...]:
     if unsafe := _unsafe(target.name):
         detail = f"its name {unsafe}, and the scene names its buffer after it"
         raise KinefabError([report.add("TARGET_UNWRITABLE", path=target, detail=detail)])
-    buffer_path, head = None, _head(scene)
+    binary = content.options.get("container") == "binary"
+    buffer_path, head = None, _head(scene, binary)
     with one_at_a_time(target.parent), ExitStack() as stack:
         remove_leftovers(target, "bin", "scene")
         temporary = None
         if len(scene.meshes):
             file, temporary = stack.enter_context(beside(target, "bin"))
             buffer_path, buffer, meshes = _write_buffer(scene.meshes, target, file, content.progress)
+            if binary:
+                buffer_path = None
+                del buffer["uri"]
             head |= {"buffers": [buffer], "meshes": meshes}
         with replacing(target, "scene") as file:
-            for piece in canonical_json(head | _tail(scene, report)):
-                file.write(piece.encode("utf-8"))
+            pieces = (piece.encode("utf-8") for piece in canonical_json(head | _tail(scene, report)))
+            if binary:
+                held = None if temporary is None else stack.enter_context(open(temporary, "rb"))
+                _write_in_one(target, file, pieces, held, report)
+            else:
+                for piece in pieces:
+                    file.write(piece)
             # Last, so that what fails before leaves no buffer behind.
             if buffer_path is not None and temporary is not None:
                 file.flush()
@@ -97,6 +107,16 @@ def write(content: Content, target: Path) -> tuple[Path, ...]:
     return (target,) if buffer_path is None else (target, buffer_path)
 
 
+def _write_in_one(
+    target: Path, file: BinaryIO, pieces: Iterable[bytes], buffer: BinaryIO | None, report: Report
+) -> None:
+    try:
+        write_container(file, pieces, buffer)
+    except OverflowError as error:
+        detail = str(error)
+        raise KinefabError([report.add("TARGET_UNWRITABLE", path=target, detail=detail)]) from error
+
+
 def _in_unity(content: Content) -> UnityScene:
     """In Unity's terms, as the format can say them; by links where that is asked for."""
     links = content.options.get("physics") == "articulation"
@@ -106,18 +126,19 @@ def _in_unity(content: Content) -> UnityScene:
     return articulated(scene, {joint.id: joint for joint in content.scene.joints}, content.report)
 
 
-def _head(scene: UnityScene) -> dict[str, Any]:
+def _head(scene: UnityScene, binary: bool = False) -> dict[str, Any]:
     """Everything before the meshes, in the file's order."""
     head: dict[str, Any] = {
         "format": "kinefab.scene",
-        "version": LINKS_VERSION if _has_links(scene) else FORMAT_VERSION,
+        "version": NEWER_VERSION if binary or _is_newer(scene) else FORMAT_VERSION,
         "generator": {"name": "kinefab", "version": __version__},
     }
     return head | {key: value for key in ("source", "physics") if (value := entry(getattr(scene, key)))}
 
 
-def _has_links(scene: UnityScene) -> bool:
-    return any(isinstance(c, ArticulationBody) for entry in scene.gameObjects for c in entry.components)
+def _is_newer(scene: UnityScene) -> bool:
+    """Whether something in it format 1.0 has no word for."""
+    return any(needs_newer(entry) or any(map(needs_newer, entry.components)) for entry in scene.gameObjects)
 
 
 def _tail(scene: UnityScene, report: Report) -> dict[str, Any]:
@@ -130,7 +151,7 @@ def _tail(scene: UnityScene, report: Report) -> dict[str, Any]:
         "constraints": [entry(constraint) for constraint in scene.constraints],
         "analysis": None if scene.analysis is None else _analysis(scene.analysis),
         "report": report_entries(report),
-        "extras": dict(scene.extras),
+        "extras": whole_numbers(scene.extras),
     }
     return {key: value for key, value in tail.items() if value or key == "gameObjects"}
 
@@ -191,7 +212,7 @@ def report_entries(report: Report) -> list[dict[str, Any]]:
 
 
 def _tell_losses(scene: UnityScene, report: Report) -> None:
-    """What the nouns hold and the format 1.0 has no field for."""
+    """What the nouns hold and the format has no field for."""
 
     def told(kind: str, name: str, noun: Noun) -> None:
         for field, usual in unsaid(type(noun)).items():
@@ -284,11 +305,14 @@ def canonical_json(content: dict[str, Any]) -> Iterator[str]:
         return texts[id(entry)]
 
     def game_object(entry: dict[str, Any]) -> str:
-        head = flat({k: v for k, v in entry.items() if k != "components"})
         if not (components := entry.get("components")):
-            return head
+            return flat({k: v for k, v in entry.items() if k != "components"})
         lines = ",\n      ".join(component(c) for c in components)
-        return f'{head[:-1]}, "components": [\n      {lines}\n    ]}}'
+        keys = list(entry)
+        place = keys.index("components")
+        head, rest = (flat({k: entry[k] for k in part}) for part in (keys[:place], keys[place + 1 :]))
+        more = f", {rest[1:-1]}" if place + 1 < len(keys) else ""
+        return f'{head[:-1]}, "components": [\n      {lines}\n    ]{more}}}'
 
     before = "{\n"
     for key, value in content.items():

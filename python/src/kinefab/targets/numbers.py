@@ -56,6 +56,17 @@ def significant(value: Any) -> Any:
     return _plain(float(f"{value:.{DECIMALS}g}"))
 
 
+def whole_numbers(value: Any) -> Any:
+    """What a source or a user says beside the format: whole numbers as the others in the file, all else as it is."""
+    if isinstance(value, float):
+        return _plain(value)
+    if isinstance(value, Mapping):
+        return {key: whole_numbers(item) for key, item in cast(Mapping[Any, Any], value).items()}
+    if isinstance(value, (list, tuple)):
+        return [whole_numbers(item) for item in cast(Sequence[Any], value)]
+    return value
+
+
 def _rounded(x: float) -> float | int | None:
     return None if math.isinf(x) else _plain(round(x, DECIMALS))
 

@@ -9,7 +9,7 @@ from __future__ import annotations
 from dataclasses import replace
 
 from ..model import free_id
-from .scene import Coupling, FixedJoint, GameObject, Joint, JointCoordinate, Rigidbody, UnityScene
+from .scene import ArticulationBody, Coupling, FixedJoint, GameObject, Joint, JointCoordinate, Rigidbody, UnityScene
 from .scene.vectors import ONE
 from .sums import light_body
 
@@ -55,6 +55,8 @@ def with_led_joints_on_light_bodies(scene: UnityScene) -> UnityScene:
 def _holds_nothing(objects: list[GameObject], at: JointCoordinate) -> bool:
     """Whether the solver moves neither side of a joint."""
     joint = objects[at.gameObject].components[at.component]
+    if isinstance(joint, ArticulationBody):
+        return False
     assert isinstance(joint, Joint), "couplings count by joints"
     return not any(
         isinstance(c, Rigidbody) and not c.isKinematic

@@ -115,10 +115,8 @@ class _Builder:
 
     def finished(self) -> list[GameObject]:
         return [
-            GameObject(
-                o.id, o.name, o.parent, o.active, o.transform, tuple(components), o.layer, o.tag, o.extras
-            )
-            for o, components in zip(self.objects, self.components)
+            replace(own, components=tuple(components))
+            for own, components in zip(self.objects, self.components)
         ]
 
     def add_ground(self) -> None:
@@ -145,7 +143,7 @@ class _Builder:
             index = self._object(
                 GameObject(
                     node.id, node.name, above, active[i], placed[i],
-                    layer=node.layer, tag=node.tag, extras=dict(node.extras),
+                    layer=node.layer, tag=node.tag, definition=node.definition or "", extras=dict(node.extras),
                 )
             )  # fmt: skip
             self.object_of.append(index)
@@ -289,7 +287,8 @@ class _Builder:
             own, other = (a, b) if self._moves(a) else (b, a)
             whole = all(self._is_whole(body, node) for body, node in ((a, pair.a), (b, pair.b)))
             if own is None or other is None or not (whole or frozenset((a, b)) in joined):
-                self.report.dropped(feature, "PAIR_DROPPED", pair.where, a=ids[0], b=ids[1])
+                if pair.stated:  # what touches of the others is found where they stand
+                    self.report.dropped(feature, "PAIR_DROPPED", pair.where, a=ids[0], b=ids[1])
                 continue
             if frozenset((a, b)) not in joined:
                 id = free_id(f"apart:{ids[0]} - {ids[1]}", taken)
@@ -347,11 +346,12 @@ class _Builder:
 
 
 def _extras(scene: Scene) -> dict[str, object]:
-    """The scene's own, with the pairs of bodies that pass through each other by their ids."""
+    """The scene's own, with the pairs of bodies that the source lets pass through each other by their ids."""
     found = dict(scene.extras)
-    if scene.apart:
+    apart = [pair for pair in scene.apart if pair.stated]
+    if apart:
         stated = found.get("ignoreCollision")
-        pairs = [[scene.nodes[pair.a].id, scene.nodes[pair.b].id] for pair in scene.apart]
+        pairs = [[scene.nodes[pair.a].id, scene.nodes[pair.b].id] for pair in apart]
         found["ignoreCollision"] = [*pairs, *(stated if isinstance(stated, list) else [])]
     return found
 

@@ -30,7 +30,7 @@ def check_overlaps(
 
     among: pairs of bodies, by their objects, that alone are looked at; None for all that no joint keeps from colliding.
     """
-    bodies = _bodies(scene)
+    bodies = bodies_of(scene)
     dynamic = {
         i
         for i, entry in enumerate(scene.gameObjects)
@@ -39,7 +39,7 @@ def check_overlaps(
     }
     if not dynamic:
         return
-    joined = _joined(scene, bodies)
+    joined = joined_pairs(scene, bodies)
 
     def may_collide(pair: frozenset[int | None]) -> bool:
         return pair not in joined if among is None else pair in among
@@ -79,7 +79,7 @@ def check_overlaps(
         report.add("COLLIDERS_OVERLAP", a=ids[0], b=ids[1], depth=f"{depth:.3g}")
 
 
-def _bodies(scene: UnityScene) -> list[int | None]:
+def bodies_of(scene: UnityScene) -> list[int | None]:
     """For each object the one whose Rigidbody moves it."""
     found: list[int | None] = []
     for i, entry in enumerate(scene.gameObjects):
@@ -88,7 +88,7 @@ def _bodies(scene: UnityScene) -> list[int | None]:
     return found
 
 
-def _joined(scene: UnityScene, moved: list[int | None]) -> set[frozenset[int | None]]:
+def joined_pairs(scene: UnityScene, moved: list[int | None]) -> set[frozenset[int | None]]:
     """Pairs of Rigidbodies that a joint keeps from colliding; Unity does so for no static collider."""
     return {
         frozenset((moved[i], moved[c.connectedBody]))

@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 
 from ..spatial import Array
-from .freedoms import world_placements, world_points
+from .freedoms import BODIES, link_above, world_placements, world_points
 
 COLOURS = ("#8d99a8", "#7fa7c9", "#c9a67f", "#8fbf9a", "#b79ac4")
 """Of the bars of one body and the next."""
@@ -28,6 +28,11 @@ def bars(objects: Sequence[Mapping[str, Any]]) -> list[Bar]:
     points: dict[int, list[Array]] = {}
     for index, item in enumerate(objects):
         for component in item.get("components", ()):
+            linked = link_above(objects, index) if component["type"] == "ArticulationBody" else None
+            if linked is not None:
+                at = world_points(component.get("anchorPosition", (0, 0, 0)), placements[index])
+                for body in (index, linked):
+                    points.setdefault(body, []).append(at)
             if component["type"] not in JOINTS:
                 continue
             at = world_points(component.get("anchor", (0, 0, 0)), placements[index])
@@ -57,8 +62,9 @@ def _bodies(objects: Sequence[Mapping[str, Any]]) -> tuple[set[int], set[int]]:
         components = {c["type"]: c for c in item.get("components", ())}
         parent: int | None = item.get("parent")
         above = None if parent is None else body_of[parent]
-        body_of.append(index if "Rigidbody" in components else above)
-        if "Rigidbody" in components and not components["Rigidbody"].get("isKinematic", False):
+        own = next((components[kind] for kind in BODIES if kind in components), None)
+        body_of.append(above if own is None else index)
+        if own is not None and not (own.get("isKinematic", False) or own.get("immovable", False)):
             free.add(index)
         body = body_of[index]
         if body is not None and "MeshFilter" in components and item.get("active", True):

@@ -12,6 +12,8 @@ from ..spatial import Array, frame_from_axes, matrix_from_quaternion
 SLIDES = {"xMotion": "slide X", "yMotion": "slide Y", "zMotion": "slide Z"}
 TURNS = {"angularXMotion": "turn X", "angularYMotion": "turn Y", "angularZMotion": "turn Z"}
 
+BODIES = ("Rigidbody", "ArticulationBody")
+
 Placement = tuple[Array, Array, Array]
 """World rotation, shape (3, 3), position, metres, and scale along the object's own axes, shape (3,)."""
 
@@ -48,7 +50,7 @@ def counted(objects: Sequence[object], joints: Sequence[object]) -> tuple[str, s
 
 def joint_name(component: Mapping[str, Any]) -> str:
     """What the user calls a joint, empty where the file does not say."""
-    name = component.get("extras", {}).get("name", "")
+    name = component.get("name") or component.get("extras", {}).get("name", "")  # so had format 1.0
     return name if isinstance(name, str) else ""
 
 
@@ -62,6 +64,8 @@ def freedoms_of_component(
     """
     if component["type"] == "FixedJoint":
         return []
+    if component["type"] == "ArticulationBody":
+        return _link_freedoms(component)
     if component["type"] == "HingeJoint":
         limits = component.get("limits", {})
         ends = (limits.get("min", 0), limits.get("max", 0)) if component.get("useLimits", False) else None
@@ -80,6 +84,39 @@ def freedoms_of_component(
         if motion != "Locked":
             found.append(_words(words, angle_range(component, field) if motion == "Limited" else None, "deg"))
     return found
+
+
+def _link_freedoms(link: Mapping[str, Any]) -> list[str]:
+    """Of a link against the one above it.  A joint of one axis that is locked moves freely, as in Unity."""
+    kind = link.get("jointType", "Fixed")
+    if kind == "Prismatic":
+        return [_words("slide X", _ends(link, "linearLock", "xDrive"), "m")]
+    if kind == "Revolute":
+        return [_words("turn X", _ends(link, "twistLock", "xDrive"), "deg")]
+    if kind != "Spherical":
+        return []
+    axes = zip(TURNS.values(), ("twistLock", "swingYLock", "swingZLock"), ("xDrive", "yDrive", "zDrive"))
+    return [
+        _words(words, _ends(link, lock, drive), "deg")
+        for words, lock, drive in axes
+        if link.get(lock, "Locked") != "Locked"
+    ]
+
+
+def _ends(link: Mapping[str, Any], lock: str, drive: str) -> tuple[float, float] | None:
+    if link.get(lock) != "Limited":
+        return None
+    return link.get(drive, {}).get("lowerLimit", 0), link.get(drive, {}).get("upperLimit", 0)
+
+
+def link_above(objects: Sequence[Mapping[str, Any]], index: int) -> int | None:
+    """The object whose link the own one is held to, None for a root."""
+    above: int | None = objects[index].get("parent")
+    while above is not None and not any(
+        c["type"] == "ArticulationBody" for c in objects[above].get("components", ())
+    ):
+        above = objects[above].get("parent")
+    return above
 
 
 def _limit(component: Mapping[str, Any], name: str) -> float:

@@ -32,15 +32,16 @@ def overview(path: Path, as_json: bool) -> str:
 
 def describe(scene: Mapping[str, Any]) -> dict[str, Any]:
     """The scene in brief: objects, joints with their freedoms, couplings, and what became of each feature."""
-    from .freedoms import freedoms_of_component, joint_name, world_placements
+    from .freedoms import BODIES, freedoms_of_component, joint_name, link_above, world_placements
 
     objects = scene.get("gameObjects", [])
     placements = world_placements(objects)
     joints: list[dict[str, Any]] = []
     for index, entry in enumerate(objects):
         for component in entry.get("components", []):
-            if component["type"].endswith("Joint"):
-                connected = component.get("connectedBody")
+            linked = link_above(objects, index) if component["type"] == "ArticulationBody" else None
+            if component["type"].endswith("Joint") or linked is not None:
+                connected = component.get("connectedBody", linked)
                 joints.append(
                     {
                         "name": joint_name(component),
@@ -62,7 +63,7 @@ def describe(scene: Mapping[str, Any]) -> dict[str, Any]:
                 "name": entry["name"],
                 "parent": entry.get("parent"),
                 "mass": next(
-                    (c.get("mass", 1) for c in entry.get("components", []) if c["type"] == "Rigidbody"), None
+                    (c.get("mass", 1) for c in entry.get("components", []) if c["type"] in BODIES), None
                 ),
                 "components": [component["type"] for component in entry.get("components", [])],
             }

@@ -37,7 +37,7 @@ public class SchemaAgreementTests
         IEnumerable<string> required = names.Where((_, i) => (fields.Required >> i & 1) == 1);
         using (Assert.EnterMultipleScope())
         {
-            Assert.That(names, Is.EquivalentTo(definition.GetProperty("properties").EnumerateObject().Select(property => property.Name)));
+            Assert.That(names, Is.EqualTo(definition.GetProperty("properties").EnumerateObject().Select(property => property.Name)), "in this order they are written");
             Assert.That(required, Is.EquivalentTo(Texts(definition, "required")));
         }
     }

@@ -40,6 +40,8 @@ public sealed class FieldEffectTests
         ["Rigidbody.interpolation"] = "what is drawn, not what moves",
         ["physics.bounceThreshold"] = "contacts alone bounce by it",
         ["physics.fixedTimestep"] = "the caller steps",
+        ["id"] = "information",
+        ["name"] = "information",
         ["because"] = "information",
         ["closure"] = "information",
         ["exact"] = "information",

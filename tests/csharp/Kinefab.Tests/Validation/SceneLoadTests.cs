@@ -1,5 +1,6 @@
 using System;
 using System.Collections.Generic;
+using System.Globalization;
 using System.IO;
 using System.Linq;
 using System.Text;
@@ -74,10 +75,33 @@ public sealed class SceneLoadTests
     }
 
     [Test]
+    public void Load_CancelledWhileTheTextIsRead_EndsThere()
+    {
+        var text = new StringBuilder("{\"format\":\"kinefab.scene\",\"version\":\"1.0\",\"gameObjects\":[{\"id\":\"0\",\"name\":\"root\"}");
+        for (int i = 1; i <= 5_000; i++)
+            text.Append(CultureInfo.InvariantCulture, $",{{\"id\":\"{i}\",\"name\":\"part\",\"parent\":0}}");
+        text.Append("]}");
+        using var cancellation = new CancellationTokenSource();
+        var told = new List<double>();
+        var options = new SceneReadOptions
+        {
+            Progress = new Called(share =>
+            {
+                told.Add(share);
+                if (share > 0.4)
+                    cancellation.Cancel();
+            }),
+        };
+        Assert.That(() => ValidScene.Load(Encoding.UTF8.GetBytes(text.ToString()), null, options, cancellation.Token), Throws.InstanceOf<OperationCanceledException>());
+        Assert.That(told, Is.Ordered.Ascending.And.Unique.And.All.LessThan(0.45));
+        Assert.That(told.Count(share => share > 0.4), Is.EqualTo(1), "it goes on after it was cancelled");
+    }
+
+    [Test]
     public void Load_Progress_RisesToOne()
     {
         var told = new List<double>();
-        ValidScene.Load(Lever, new SceneReadOptions { Progress = new Told(told) });
+        ValidScene.Load(Lever, new SceneReadOptions { Progress = new Called(told.Add) });
         Assert.That(told, Is.Ordered.Ascending.And.Unique);
         Assert.That(told[^1], Is.EqualTo(1));
     }
@@ -117,9 +141,9 @@ public sealed class SceneLoadTests
 
     private static ReadOnlyMemory<byte>? Buffer(string uri) => File.ReadAllBytes(Path.Combine(Path.GetDirectoryName(Lever)!, uri));
 
-    private sealed class Told(List<double> values) : IProgress<double>
+    private sealed class Called(Action<double> told) : IProgress<double>
     {
-        public void Report(double value) => values.Add(value);
+        public void Report(double value) => told(value);
     }
 
     // As a pipe: a few bytes at a time, no length.

@@ -1,4 +1,3 @@
-using System;
 using System.Collections.Generic;
 using System.Text;
 using Kinefab.Document;
@@ -16,13 +15,13 @@ internal static class EditedScene
         JsonTree root = JsonTree.Parse(scene.Document.Text.Span);
         foreach (SceneEdit edit in edits)
             root.Set(edit.Pointer, JsonTree.Parse(edit.Value));
+        if (SceneFile.Parse(Encoding.UTF8.GetBytes(root.ToString())).Document is not SceneDocument edited)
+            return null;
 
-        // Two buffers may name one file.
-        var buffers = new Dictionary<string, ReadOnlyMemory<byte>?>(StringComparer.Ordinal);
-        foreach (SceneBuffer buffer in scene.Document.Buffers)
-            buffers[buffer.Uri] = buffer.Data;
-        SceneReading reading = SceneFile.Parse(Encoding.UTF8.GetBytes(root.ToString()), uri => buffers.TryGetValue(uri, out ReadOnlyMemory<byte>? data) ? data : null);
-        return reading.Document is null ? null : SceneValidator.Validate(reading.Document).Scene;
+        // No edit changes them.
+        for (int i = 0; i < edited.Buffers.Count; i++)
+            edited.Buffers[i].Attach(scene.Document.Buffers[i].Data);
+        return SceneValidator.Validate(edited).Scene;
     }
 
     /// <summary>A component as the file has it.</summary>

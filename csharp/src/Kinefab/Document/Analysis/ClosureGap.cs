@@ -1,41 +1,13 @@
-using Kinefab.Json;
-using Kinefab.Reading;
-
 namespace Kinefab.Document;
 
 /// <summary>Worst misfit of the exported pose.</summary>
-public sealed record ClosureGap : DocumentObject
+public sealed partial record ClosureGap : DocumentObject
 {
-    internal static readonly FieldNames Fields = new([], "position", "angle", "extras");
-
-    /// <summary>With nothing stated.</summary>
-    public ClosureGap()
-    {
-    }
-
-    internal ClosureGap(ref JsonCursor json)
-    {
-        FieldCursor fields = json.BeginObject(Fields);
-        while (json.NextField(ref fields))
-        {
-            switch (fields.Name)
-            {
-                case "position":
-                    Position = json.Number();
-                    break;
-                case "angle":
-                    Angle = json.Number();
-                    break;
-                case "extras":
-                    ExtrasJson = json.Extras();
-                    break;
-            }
-        }
-    }
-
     /// <summary>Metres.</summary>
+    [Field(Always = true)]
     public double Position { get; init; }
 
     /// <summary>Degrees.</summary>
+    [Field(Always = true)]
     public double Angle { get; init; }
 }

@@ -1,11 +1,11 @@
 using System;
 using System.Collections.Generic;
 using Kinefab.Json;
-using Kinefab.Reading;
 
 namespace Kinefab.Document;
 
 /// <summary>Kinds of geometric constraints.</summary>
+[Words(Letters.Snake)]
 public enum ConstraintKind
 {
     /// <summary>Points, lines or planes lie in each other.</summary>
@@ -99,84 +99,24 @@ public enum ConstraintSide
 }
 
 /// <summary>A geometric constraint of the source, written through for whoever wants it.</summary>
-public sealed record Constraint : DocumentObject
+public sealed partial record Constraint : DocumentObject
 {
-    internal static readonly FieldNames Fields = new(
-        ["id", "kind", "features"],
-        "name", "rawKind", "value", "lower", "upper", "sense", "side", "lockRotation", "suppressed", "reading",
-        "extras");
-
-    /// <summary>With nothing stated.</summary>
-    public Constraint()
-    {
-    }
-
-    internal Constraint(ref JsonCursor json)
-    {
-        FieldCursor fields = json.BeginObject(Fields);
-        while (json.NextField(ref fields))
-        {
-            switch (fields.Name)
-            {
-                case "id":
-                    Id = json.Text();
-                    break;
-                case "name":
-                    Name = json.Text();
-                    break;
-                case "kind":
-                    Kind = json.Word(ConstraintKindWords.Table);
-                    break;
-                case "rawKind":
-                    RawKind = json.Text();
-                    break;
-                case "features":
-                    Features = json.List(static (ref JsonCursor at) => new Feature(ref at));
-                    break;
-                case "value":
-                    Value = json.Number();
-                    break;
-                case "lower":
-                    Lower = json.Number();
-                    break;
-                case "upper":
-                    Upper = json.Number();
-                    break;
-                case "sense":
-                    Sense = json.Word(ConstraintSenseWords.Table);
-                    break;
-                case "side":
-                    Side = json.Word(ConstraintSideWords.Table);
-                    break;
-                case "lockRotation":
-                    LockRotation = json.Boolean();
-                    break;
-                case "suppressed":
-                    Suppressed = json.Boolean();
-                    break;
-                case "reading":
-                    Reading = json.Dictionary();
-                    break;
-                case "extras":
-                    ExtrasJson = json.Extras();
-                    break;
-            }
-        }
-    }
-
     /// <summary>Id in the source.</summary>
+    [Field(Required = true)]
     public string Id { get; init; } = "";
 
     /// <summary>Name in the source.</summary>
     public string? Name { get; init; }
 
     /// <summary>Kind.</summary>
+    [Field(Required = true)]
     public ConstraintKind Kind { get; init; }
 
     /// <summary>The source's own word for the kind.</summary>
     public string? RawKind { get; init; }
 
     /// <summary>The constrained geometry.</summary>
+    [Field(Required = true)]
     public IReadOnlyList<Feature> Features { get; init; } = Array.Empty<Feature>();
 
     /// <summary>Metres, degrees, or metres a turn for a screw.</summary>
@@ -204,33 +144,6 @@ public sealed record Constraint : DocumentObject
     public IReadOnlyDictionary<string, string> Reading { get; init; } = new Dictionary<string, string>();
 
     private protected override string Describe() => Line($"{Kind} \"{Name ?? Id}\" of {Features.Count} features{(Suppressed ? ", suppressed" : "")}");
-}
-
-/// <summary>The words of the scene file for <see cref="ConstraintKind"/>.</summary>
-internal static class ConstraintKindWords
-{
-    internal static readonly Words<ConstraintKind> Table = new(
-        ("coincident", ConstraintKind.Coincident),
-        ("concentric", ConstraintKind.Concentric),
-        ("parallel", ConstraintKind.Parallel),
-        ("perpendicular", ConstraintKind.Perpendicular),
-        ("angle", ConstraintKind.Angle),
-        ("distance", ConstraintKind.Distance),
-        ("tangent", ConstraintKind.Tangent),
-        ("insert", ConstraintKind.Insert),
-        ("symmetry", ConstraintKind.Symmetry),
-        ("lock", ConstraintKind.Lock),
-        ("lock_orientation", ConstraintKind.LockOrientation),
-        ("slider", ConstraintKind.Slider),
-        ("pin_slot", ConstraintKind.PinSlot),
-        ("universal", ConstraintKind.Universal),
-        ("screw", ConstraintKind.Screw),
-        ("gear", ConstraintKind.Gear),
-        ("belt", ConstraintKind.Belt),
-        ("rack", ConstraintKind.Rack),
-        ("linear", ConstraintKind.Linear),
-        ("ground", ConstraintKind.Ground),
-        ("other", ConstraintKind.Other));
 }
 
 /// <summary>The words of the scene file for <see cref="ConstraintSense"/>.</summary>

@@ -1,10 +1,9 @@
-using Kinefab.Json;
 using Kinefab.Numerics;
-using Kinefab.Reading;
 
 namespace Kinefab.Document;
 
 /// <summary>Kinds of geometry that a constraint refers to.</summary>
+[Words(Letters.Camel)]
 public enum FeatureKind
 {
     /// <summary>A point.</summary>
@@ -36,56 +35,13 @@ public enum FeatureKind
 }
 
 /// <summary>Geometry that a constraint refers to, in the local frame of its GameObject, or in the world.</summary>
-public sealed record Feature : DocumentObject
+public sealed partial record Feature : DocumentObject
 {
-    internal static readonly FieldNames Fields = new(
-        ["kind"],
-        "gameObject", "point", "direction", "secondary", "radius", "halfAngle", "extras");
-
-    /// <summary>With nothing stated.</summary>
-    public Feature()
-    {
-    }
-
-    internal Feature(ref JsonCursor json)
-    {
-        FieldCursor fields = json.BeginObject(Fields);
-        while (json.NextField(ref fields))
-        {
-            switch (fields.Name)
-            {
-                case "gameObject":
-                    GameObject = json.Int();
-                    break;
-                case "kind":
-                    Kind = json.Word(FeatureKindWords.Table);
-                    break;
-                case "point":
-                    Point = json.Vector3();
-                    break;
-                case "direction":
-                    Direction = json.Vector3();
-                    break;
-                case "secondary":
-                    Secondary = json.Vector3();
-                    break;
-                case "radius":
-                    Radius = json.Number();
-                    break;
-                case "halfAngle":
-                    HalfAngle = json.Number();
-                    break;
-                case "extras":
-                    ExtrasJson = json.Extras();
-                    break;
-            }
-        }
-    }
-
     /// <summary>Index of the GameObject; null: the ground.</summary>
     public int? GameObject { get; init; }
 
     /// <summary>Kind.</summary>
+    [Field(Required = true)]
     public FeatureKind Kind { get; init; }
 
     /// <summary>Metres.</summary>
@@ -102,19 +58,4 @@ public sealed record Feature : DocumentObject
 
     /// <summary>Degrees.</summary>
     public double HalfAngle { get; init; }
-}
-
-/// <summary>The words of the scene file for <see cref="FeatureKind"/>.</summary>
-internal static class FeatureKindWords
-{
-    internal static readonly Words<FeatureKind> Table = new(
-        ("point", FeatureKind.Point),
-        ("line", FeatureKind.Line),
-        ("plane", FeatureKind.Plane),
-        ("circle", FeatureKind.Circle),
-        ("cylinder", FeatureKind.Cylinder),
-        ("sphere", FeatureKind.Sphere),
-        ("cone", FeatureKind.Cone),
-        ("frame", FeatureKind.Frame),
-        ("body", FeatureKind.Body));
 }

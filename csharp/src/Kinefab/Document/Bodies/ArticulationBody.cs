@@ -1,8 +1,6 @@
 using System;
 using System.Collections.Generic;
-using Kinefab.Json;
 using Kinefab.Numerics;
-using Kinefab.Reading;
 
 namespace Kinefab.Document;
 
@@ -10,112 +8,9 @@ namespace Kinefab.Document;
 /// A link of a tree in reduced coordinates, held to the nearest ArticulationBody above it in the hierarchy; without one it is the root.
 /// Zero of its coordinates is the pose in the file.
 /// </summary>
-public sealed record ArticulationBody : Component
+[Since(1)]
+public sealed partial record ArticulationBody : Component
 {
-    internal static readonly FieldNames Fields = new(
-        ["type"],
-        "mass", "parentAnchorPosition", "parentAnchorRotation", "anchorPosition", "anchorRotation", "jointType",
-        "linearLock", "twistLock", "swingYLock", "swingZLock", "xDrive", "yDrive", "zDrive",
-        "linearDamping", "angularDamping", "jointFriction", "maxJointVelocity", "centerOfMass", "inertiaTensor", "inertiaTensorRotation",
-        "immovable", "useGravity", "collisionDetectionMode", "solverIterations", "solverVelocityIterations", "because", "extras");
-
-    /// <summary>Unity's defaults.</summary>
-    public ArticulationBody()
-    {
-    }
-
-    internal ArticulationBody(ref JsonCursor json)
-    {
-        FieldCursor fields = json.BeginObject(Fields);
-        while (json.NextField(ref fields))
-        {
-            switch (fields.Name)
-            {
-                case "mass":
-                    Mass = json.Number();
-                    break;
-                case "parentAnchorPosition":
-                    ParentAnchorPosition = json.Vector3();
-                    break;
-                case "parentAnchorRotation":
-                    ParentAnchorRotation = json.Quaternion();
-                    break;
-                case "anchorPosition":
-                    AnchorPosition = json.Vector3();
-                    break;
-                case "anchorRotation":
-                    AnchorRotation = json.Quaternion();
-                    break;
-                case "jointType":
-                    JointType = json.Word(ArticulationJointTypeWords.Table);
-                    break;
-                case "linearLock":
-                    LinearLock = json.Word(ConfigurableJointMotionWords.Table);
-                    break;
-                case "twistLock":
-                    TwistLock = json.Word(ConfigurableJointMotionWords.Table);
-                    break;
-                case "swingYLock":
-                    SwingYLock = json.Word(ConfigurableJointMotionWords.Table);
-                    break;
-                case "swingZLock":
-                    SwingZLock = json.Word(ConfigurableJointMotionWords.Table);
-                    break;
-                case "xDrive":
-                    XDrive = new ArticulationDrive(ref json);
-                    break;
-                case "yDrive":
-                    YDrive = new ArticulationDrive(ref json);
-                    break;
-                case "zDrive":
-                    ZDrive = new ArticulationDrive(ref json);
-                    break;
-                case "linearDamping":
-                    LinearDamping = json.Number();
-                    break;
-                case "angularDamping":
-                    AngularDamping = json.Number();
-                    break;
-                case "jointFriction":
-                    JointFriction = json.Number();
-                    break;
-                case "maxJointVelocity":
-                    MaxJointVelocity = json.Number();
-                    break;
-                case "centerOfMass":
-                    CenterOfMass = json.Vector3();
-                    break;
-                case "inertiaTensor":
-                    InertiaTensor = json.Vector3();
-                    break;
-                case "inertiaTensorRotation":
-                    InertiaTensorRotation = json.Quaternion();
-                    break;
-                case "immovable":
-                    Immovable = json.Boolean();
-                    break;
-                case "useGravity":
-                    UseGravity = json.Boolean();
-                    break;
-                case "collisionDetectionMode":
-                    CollisionDetectionMode = json.Word(CollisionDetectionModeWords.Table);
-                    break;
-                case "solverIterations":
-                    SolverIterations = json.Int();
-                    break;
-                case "solverVelocityIterations":
-                    SolverVelocityIterations = json.Int();
-                    break;
-                case "because":
-                    Because = json.List(static (ref JsonCursor item) => item.Text());
-                    break;
-                case "extras":
-                    ExtrasJson = json.Extras();
-                    break;
-            }
-        }
-    }
-
     /// <summary>kg.</summary>
     public double Mass { get; init; } = 1;
 

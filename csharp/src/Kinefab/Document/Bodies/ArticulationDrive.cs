@@ -1,58 +1,8 @@
-using Kinefab.Json;
-using Kinefab.Reading;
-
 namespace Kinefab.Document;
 
 /// <summary>Limits and drive of one axis of a link: metres or degrees, newtons or newton metres, gains for each metre or radian.</summary>
-public sealed record ArticulationDrive : DocumentObject
+public sealed partial record ArticulationDrive : DocumentObject
 {
-    internal static readonly FieldNames Fields = new(
-        [],
-        "lowerLimit", "upperLimit", "stiffness", "damping", "forceLimit", "target", "targetVelocity", "driveType", "extras");
-
-    /// <summary>Unity's defaults.</summary>
-    public ArticulationDrive()
-    {
-    }
-
-    internal ArticulationDrive(ref JsonCursor json)
-    {
-        FieldCursor fields = json.BeginObject(Fields);
-        while (json.NextField(ref fields))
-        {
-            switch (fields.Name)
-            {
-                case "lowerLimit":
-                    LowerLimit = json.Number();
-                    break;
-                case "upperLimit":
-                    UpperLimit = json.Number();
-                    break;
-                case "stiffness":
-                    Stiffness = json.Number();
-                    break;
-                case "damping":
-                    Damping = json.Number();
-                    break;
-                case "forceLimit":
-                    ForceLimit = json.Number();
-                    break;
-                case "target":
-                    Target = json.Number();
-                    break;
-                case "targetVelocity":
-                    TargetVelocity = json.Number();
-                    break;
-                case "driveType":
-                    DriveType = json.Word(ArticulationDriveTypeWords.Table);
-                    break;
-                case "extras":
-                    ExtrasJson = json.Extras();
-                    break;
-            }
-        }
-    }
-
     /// <summary>A drive that does nothing.</summary>
     public static ArticulationDrive Default { get; } = new();
 

@@ -1,8 +1,7 @@
-using Kinefab.Json;
-
 namespace Kinefab.Document;
 
 /// <summary>How a link may move against the one above it; values are Unity's.</summary>
+[Words]
 public enum ArticulationJointType
 {
     /// <summary>Not at all.</summary>
@@ -19,6 +18,7 @@ public enum ArticulationJointType
 }
 
 /// <summary>What an <see cref="ArticulationDrive"/> gives; values are Unity's.</summary>
+[Words]
 public enum ArticulationDriveType
 {
     /// <summary>Forces: gains in N/m, N s/m or N m/rad, N m s/rad.</summary>
@@ -32,24 +32,4 @@ public enum ArticulationDriveType
 
     /// <summary>The target velocity as stiffly as the solver can; gains do not count.</summary>
     Velocity,
-}
-
-/// <summary>The words of the scene file for <see cref="ArticulationJointType"/>.</summary>
-internal static class ArticulationJointTypeWords
-{
-    internal static readonly Words<ArticulationJointType> Table = new(
-        ("Fixed", ArticulationJointType.Fixed),
-        ("Prismatic", ArticulationJointType.Prismatic),
-        ("Revolute", ArticulationJointType.Revolute),
-        ("Spherical", ArticulationJointType.Spherical));
-}
-
-/// <summary>The words of the scene file for <see cref="ArticulationDriveType"/>.</summary>
-internal static class ArticulationDriveTypeWords
-{
-    internal static readonly Words<ArticulationDriveType> Table = new(
-        ("Force", ArticulationDriveType.Force),
-        ("Acceleration", ArticulationDriveType.Acceleration),
-        ("Target", ArticulationDriveType.Target),
-        ("Velocity", ArticulationDriveType.Velocity));
 }

@@ -1,53 +1,10 @@
-using Kinefab.Json;
 using Kinefab.Numerics;
-using Kinefab.Reading;
 
 namespace Kinefab.Document;
 
 /// <summary>CapsuleCollider.</summary>
-public sealed record CapsuleCollider : Collider
+public sealed partial record CapsuleCollider : Collider
 {
-    internal static readonly FieldNames Fields = new(
-        ["type"],
-        [
-            .. ColliderFields,
-            "center", "radius", "height", "direction", "extras",
-        ]);
-
-    /// <summary>Unity's defaults.</summary>
-    public CapsuleCollider()
-    {
-    }
-
-    internal CapsuleCollider(ref JsonCursor json)
-    {
-        FieldCursor fields = json.BeginObject(Fields);
-        while (json.NextField(ref fields))
-        {
-            switch (fields.Name)
-            {
-                case "center":
-                    Center = json.Vector3();
-                    break;
-                case "radius":
-                    Radius = json.Number();
-                    break;
-                case "height":
-                    Height = json.Number();
-                    break;
-                case "direction":
-                    Direction = json.Word(AxisWords.Table);
-                    break;
-                case "extras":
-                    ExtrasJson = json.Extras();
-                    break;
-                default:
-                    ReadColliderField(ref json, fields.Name);
-                    break;
-            }
-        }
-    }
-
     /// <summary>Local, metres.</summary>
     public Vector3d Center { get; init; }
 

@@ -1,43 +1,24 @@
-using Kinefab.Reading;
 
 namespace Kinefab.Document;
 
 /// <summary>A collider; it belongs to the nearest Rigidbody on its own GameObject or an ancestor.</summary>
 public abstract record Collider : Component
 {
-    private protected static readonly string[] ColliderFields = ["isTrigger", "enabled"];
-
-    private bool isTrigger;
-    private bool enabled = true;
-
     private protected Collider()
     {
     }
 
     /// <summary>Reports contacts without stopping bodies.</summary>
-    public bool IsTrigger
-    {
-        get => isTrigger;
-        init => isTrigger = value;
-    }
+    public bool IsTrigger { get; init; }
 
     /// <summary>Collider.enabled.</summary>
-    public bool Enabled
-    {
-        get => enabled;
-        init => enabled = value;
-    }
+    public bool Enabled { get; init; } = true;
 
-    private protected void ReadColliderField(ref JsonCursor json, string field)
-    {
-        switch (field)
-        {
-            case "isTrigger":
-                isTrigger = json.Boolean();
-                break;
-            case "enabled":
-                enabled = json.Boolean();
-                break;
-        }
-    }
+    /// <summary>The source's collision group or layer; null for none.</summary>
+    [Since(1)]
+    public string? Group { get; init; }
+
+    /// <summary>What the source calls it among the colliders of its object; null when it is not told.</summary>
+    [Since(1)]
+    public string? Id { get; init; }
 }

@@ -1,79 +1,11 @@
-using Kinefab.Json;
 using Kinefab.Numerics;
 using Kinefab.Reading;
 
 namespace Kinefab.Document;
 
 /// <summary>Rigidbody with its own centre of mass and inertia: Unity's automatic ones depend on colliders.</summary>
-public sealed record Rigidbody : Component
+public sealed partial record Rigidbody : Component
 {
-    internal static readonly FieldNames Fields = new(
-        ["type"],
-        "mass", "linearDamping", "angularDamping", "centerOfMass", "inertiaTensor", "inertiaTensorRotation",
-        "useGravity", "isKinematic", "interpolation", "constraints", "collisionDetectionMode",
-        "maxAngularVelocity", "solverIterations", "solverVelocityIterations", "extras");
-
-    /// <summary>Unity's defaults.</summary>
-    public Rigidbody()
-    {
-    }
-
-    internal Rigidbody(ref JsonCursor json)
-    {
-        FieldCursor fields = json.BeginObject(Fields);
-        while (json.NextField(ref fields))
-        {
-            switch (fields.Name)
-            {
-                case "mass":
-                    Mass = json.Number();
-                    break;
-                case "linearDamping":
-                    LinearDamping = json.Number();
-                    break;
-                case "angularDamping":
-                    AngularDamping = json.Number();
-                    break;
-                case "centerOfMass":
-                    CenterOfMass = json.Vector3();
-                    break;
-                case "inertiaTensor":
-                    InertiaTensor = json.Vector3();
-                    break;
-                case "inertiaTensorRotation":
-                    InertiaTensorRotation = json.Quaternion();
-                    break;
-                case "useGravity":
-                    UseGravity = json.Boolean();
-                    break;
-                case "isKinematic":
-                    IsKinematic = json.Boolean();
-                    break;
-                case "interpolation":
-                    Interpolation = json.Word(RigidbodyInterpolationWords.Table);
-                    break;
-                case "constraints":
-                    Constraints = ReadConstraints(ref json);
-                    break;
-                case "collisionDetectionMode":
-                    CollisionDetectionMode = json.Word(CollisionDetectionModeWords.Table);
-                    break;
-                case "maxAngularVelocity":
-                    MaxAngularVelocity = json.Number();
-                    break;
-                case "solverIterations":
-                    SolverIterations = json.Int();
-                    break;
-                case "solverVelocityIterations":
-                    SolverVelocityIterations = json.Int();
-                    break;
-                case "extras":
-                    ExtrasJson = json.Extras();
-                    break;
-            }
-        }
-    }
-
     /// <summary>kg.</summary>
     public double Mass { get; init; } = 1;
 
@@ -115,14 +47,6 @@ public sealed record Rigidbody : Component
 
     /// <summary>Null: <see cref="Physics.SolverVelocityIterations"/>.</summary>
     public int? SolverVelocityIterations { get; init; }
-
-    private static RigidbodyConstraints ReadConstraints(ref JsonCursor json)
-    {
-        var all = RigidbodyConstraints.None;
-        foreach (RigidbodyConstraints flag in json.WordSet(RigidbodyConstraintsWords.Table))
-            all |= flag;
-        return all;
-    }
 
     private protected override string Describe() => Line($"Rigidbody {Mass} kg{(IsKinematic ? ", kinematic" : "")}{(UseGravity ? "" : ", without gravity")}{(Constraints == RigidbodyConstraints.None ? "" : $", {Constraints}")}");
 }

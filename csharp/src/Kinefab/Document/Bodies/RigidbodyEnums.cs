@@ -1,10 +1,10 @@
 using System;
-using Kinefab.Json;
 
 namespace Kinefab.Document;
 
 /// <summary>Which motions of a Rigidbody are frozen; values are Unity's.</summary>
 [Flags]
+[Words]
 public enum RigidbodyConstraints
 {
     /// <summary>None.</summary>
@@ -30,6 +30,7 @@ public enum RigidbodyConstraints
 }
 
 /// <summary>How Unity smooths what is seen between physics steps; no influence on the simulation.</summary>
+[Words]
 public enum RigidbodyInterpolation
 {
     /// <summary>Not at all.</summary>
@@ -43,6 +44,7 @@ public enum RigidbodyInterpolation
 }
 
 /// <summary>How fast bodies are kept from passing through each other.</summary>
+[Words]
 public enum CollisionDetectionMode
 {
     /// <summary>At the steps only.</summary>
@@ -56,35 +58,4 @@ public enum CollisionDetectionMode
 
     /// <summary>By speculative contacts.</summary>
     ContinuousSpeculative,
-}
-
-/// <summary>The words of the scene file for <see cref="RigidbodyInterpolation"/>.</summary>
-internal static class RigidbodyInterpolationWords
-{
-    internal static readonly Words<RigidbodyInterpolation> Table = new(
-        ("None", RigidbodyInterpolation.None),
-        ("Interpolate", RigidbodyInterpolation.Interpolate),
-        ("Extrapolate", RigidbodyInterpolation.Extrapolate));
-}
-
-/// <summary>The words of the scene file for <see cref="RigidbodyConstraints"/>.</summary>
-internal static class RigidbodyConstraintsWords
-{
-    internal static readonly Words<RigidbodyConstraints> Table = new(
-        ("FreezePositionX", RigidbodyConstraints.FreezePositionX),
-        ("FreezePositionY", RigidbodyConstraints.FreezePositionY),
-        ("FreezePositionZ", RigidbodyConstraints.FreezePositionZ),
-        ("FreezeRotationX", RigidbodyConstraints.FreezeRotationX),
-        ("FreezeRotationY", RigidbodyConstraints.FreezeRotationY),
-        ("FreezeRotationZ", RigidbodyConstraints.FreezeRotationZ));
-}
-
-/// <summary>The words of the scene file for <see cref="CollisionDetectionMode"/>.</summary>
-internal static class CollisionDetectionModeWords
-{
-    internal static readonly Words<CollisionDetectionMode> Table = new(
-        ("Discrete", CollisionDetectionMode.Discrete),
-        ("Continuous", CollisionDetectionMode.Continuous),
-        ("ContinuousDynamic", CollisionDetectionMode.ContinuousDynamic),
-        ("ContinuousSpeculative", CollisionDetectionMode.ContinuousSpeculative));
 }

@@ -11,7 +11,7 @@ internal static class BufferFiles
     internal static void Attach(SceneDocument document, string folder, CancellationToken cancellation)
     {
         // A file that several buffers name is read, and held, once.
-        foreach (IGrouping<string, SceneBuffer> file in document.Buffers.Where(buffer => BufferUri.IsSafe(buffer.Uri)).GroupBy(buffer => buffer.Uri, StringComparer.Ordinal))
+        foreach (IGrouping<string, SceneBuffer> file in document.Buffers.Where(buffer => buffer.Uri is string uri && BufferUri.IsSafe(uri)).GroupBy(buffer => buffer.Uri!, StringComparer.Ordinal))
         {
             try
             {

@@ -8,10 +8,10 @@ using Kinefab.Reading;
 namespace Kinefab.Document;
 
 /// <summary>
-/// Reads scene files (NAME.kinefab and its buffers).  Faulty data gives a report, never an exception; what the numbers
+/// Reads scene files (NAME.kinefab and its buffers), text or binary, told apart by their first bytes.  Faulty data gives a report, never an exception; what the numbers
 /// mean together is checked by <c>SceneValidator</c>.
 /// </summary>
-public static class SceneFile
+public static partial class SceneFile
 {
     // What takes long is the reading of files and, of large texts, the parsing.
     private const double ShareOfFile = 0.2;
@@ -22,6 +22,7 @@ public static class SceneFile
     /// <param name="path">A scene file, NAME.kinefab.</param>
     /// <param name="options">Null: the default ones.</param>
     /// <param name="cancellation">Ends the reading early.</param>
+    /// <returns>The document, or null where the report holds an error.</returns>
     /// <exception cref="OperationCanceledException">It was cancelled.</exception>
     public static SceneReading Load(string path, SceneReadOptions? options = null, CancellationToken cancellation = default)
     {
@@ -53,7 +54,7 @@ public static class SceneFile
             return new SceneReading(null, FindingPlaces.Resolve(findings, default, hasText: false));
         options.Progress?.Report(ShareOfFile);
         cancellation.ThrowIfCancellationRequested();
-        SceneReading reading = Parse(bytes, findings, options);
+        SceneReading reading = Parse(bytes, findings, options, cancellation);
         options.Progress?.Report(ShareOfText);
         if (reading.Document is { Buffers.Count: > 0 } document)
             BufferFiles.Attach(document, Path.GetDirectoryName(Path.GetFullPath(path))!, cancellation);
@@ -62,10 +63,11 @@ public static class SceneFile
     }
 
     /// <summary>Reads a stream from where it stands to its end; it stays open.</summary>
-    /// <param name="json">The text, UTF-8; need not be seekable.</param>
+    /// <param name="json">Text, UTF-8, or binary; need not be seekable.</param>
     /// <param name="buffers">Gives the bytes of a buffer by its uri, or null when there are none; null: there are no buffers.</param>
     /// <param name="options">Null: the default ones.</param>
     /// <param name="cancellation">Ends the reading early.</param>
+    /// <returns>The document, or null where the report holds an error.</returns>
     /// <exception cref="IOException">The stream cannot be read.</exception>
     /// <exception cref="OperationCanceledException">It was cancelled.</exception>
     public static SceneReading Load(Stream json, Func<string, ReadOnlyMemory<byte>?>? buffers = null, SceneReadOptions? options = null, CancellationToken cancellation = default)
@@ -83,16 +85,17 @@ public static class SceneFile
 
         options.Progress?.Report(ShareOfFile);
         cancellation.ThrowIfCancellationRequested();
-        SceneReading reading = Parse(bytes, buffers, options);
+        SceneReading reading = Parse(bytes, buffers, options, cancellation);
         options.Progress?.Report(ShareOfBuffers);
         return reading;
     }
 
     /// <summary>Reads a stream from where it stands to its end, and the buffers in a folder; the stream stays open.</summary>
-    /// <param name="json">The text, UTF-8; need not be seekable.</param>
+    /// <param name="json">Text, UTF-8, or binary; need not be seekable.</param>
     /// <param name="folder">Where the buffers lie.</param>
     /// <param name="options">Null: the default ones.</param>
     /// <param name="cancellation">Ends the reading early.</param>
+    /// <returns>The document, or null where the report holds an error.</returns>
     /// <exception cref="IOException">The stream cannot be read.</exception>
     /// <exception cref="OperationCanceledException">It was cancelled.</exception>
     public static SceneReading Load(Stream json, string folder, SceneReadOptions? options = null, CancellationToken cancellation = default)
@@ -106,13 +109,17 @@ public static class SceneFile
     }
 
     /// <summary>As the other <c>Parse</c>, without the copy: the array is kept and must not be changed any more.</summary>
-    /// <param name="json">The text, UTF-8.</param>
+    /// <param name="json">Text, UTF-8, or binary.</param>
     /// <param name="buffers">Gives the bytes of a buffer by its uri, or null when there are none; null: there are no buffers.</param>
     /// <param name="options">Null: the default ones.</param>
+    /// <param name="cancellation">Ends the reading early.</param>
+    /// <returns>The document, or null where the report holds an error.</returns>
+    /// <exception cref="OperationCanceledException">It was cancelled.</exception>
     public static SceneReading Parse(
         byte[] json,
         Func<string, ReadOnlyMemory<byte>?>? buffers = null,
-        SceneReadOptions? options = null)
+        SceneReadOptions? options = null,
+        CancellationToken cancellation = default)
     {
         if (json is null)
             throw new ArgumentNullException(nameof(json));
@@ -124,44 +131,59 @@ public static class SceneFile
             return new SceneReading(null, FindingPlaces.Resolve(findings, default, hasText: false));
         }
 
-        SceneReading reading = Parse(json, findings, options);
+        SceneReading reading = Parse(json, findings, options, cancellation);
         if (buffers is not null && reading.Document is not null)
         {
             foreach (SceneBuffer buffer in reading.Document.Buffers)
-                buffer.Attach(buffers(buffer.Uri));
+            {
+                if (buffer.Uri is string uri)
+                    buffer.Attach(buffers(uri));
+            }
         }
 
         return reading;
     }
 
-    /// <summary>Reads a text in memory; it is copied, so that later findings can give line and column.</summary>
-    /// <param name="json">The text, UTF-8.</param>
+    /// <summary>Reads a file in memory; it is copied, so that later findings can give line and column.</summary>
+    /// <param name="json">Text, UTF-8, or binary.</param>
     /// <param name="buffers">Gives the bytes of a buffer by its uri, or null when there are none; null: there are no buffers.</param>
     /// <param name="options">Null: the default ones.</param>
+    /// <param name="cancellation">Ends the reading early.</param>
+    /// <returns>The document, or null where the report holds an error.</returns>
+    /// <exception cref="OperationCanceledException">It was cancelled.</exception>
     public static SceneReading Parse(
         ReadOnlySpan<byte> json,
         Func<string, ReadOnlyMemory<byte>?>? buffers = null,
-        SceneReadOptions? options = null) => Parse(json.ToArray(), buffers, options);
+        SceneReadOptions? options = null,
+        CancellationToken cancellation = default) => Parse(json.ToArray(), buffers, options, cancellation);
 
-    /// <summary>Reads a text that the document keeps.</summary>
-    private static SceneReading Parse(byte[] json, Findings findings, SceneReadOptions options)
+    /// <summary>Reads bytes that the document keeps.</summary>
+    private static SceneReading Parse(byte[] bytes, Findings findings, SceneReadOptions options, CancellationToken cancellation)
     {
-        ReadOnlyMemory<byte> text = JsonText.WithoutMark(json);
-        SceneDocument? document = Read(text.Span, findings, options);
+        BinaryFile file = default;
+        bool isBinary = BinaryFile.IsOne(bytes);
+        if (isBinary && !BinaryFile.TryOpen(bytes, findings, out file))
+            return new SceneReading(null, FindingPlaces.Resolve(findings, default, hasText: false));
+        ReadOnlyMemory<byte> text = isBinary ? file.Text : JsonText.WithoutMark(bytes);
+        SceneDocument? document = Read(text.Span, findings, options, cancellation);
         Report report = FindingPlaces.Resolve(findings, text.Span, hasText: true);
         if (findings.Errors > 0 || document is null)
             return new SceneReading(null, report);
+        if (isBinary)
+            document = document with { Container = SceneContainer.Binary };
         document.Text = text;
+        OwnBuffer.Attach(document, file.Buffer);
         return new SceneReading(document, report);
     }
 
-    private static SceneDocument? Read(ReadOnlySpan<byte> text, Findings findings, SceneReadOptions options)
+    private static SceneDocument? Read(ReadOnlySpan<byte> text, Findings findings, SceneReadOptions options, CancellationToken cancellation)
     {
         if (!JsonText.Check(text, findings))
             return null;
         try
         {
-            var cursor = new JsonCursor(text, findings, options.Limits.MaxItems, options.Limits.MaxDepth, options.Strict);
+            var progress = new ReadingProgress(options.Progress, ShareOfFile, ShareOfText, cancellation);
+            var cursor = new JsonCursor(text, findings, options.Limits.MaxItems, options.Limits.MaxDepth, options.Strict, progress);
             var document = new SceneDocument(ref cursor);
             cursor.End();
             return document;

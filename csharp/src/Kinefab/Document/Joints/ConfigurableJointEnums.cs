@@ -1,8 +1,7 @@
-using Kinefab.Json;
-
 namespace Kinefab.Document;
 
 /// <summary>What one freedom of a <see cref="ConfigurableJoint"/> may do; values are Unity's and PhysX's.</summary>
+[Words]
 public enum ConfigurableJointMotion
 {
     /// <summary>Nothing.</summary>
@@ -16,6 +15,7 @@ public enum ConfigurableJointMotion
 }
 
 /// <summary>Which drives turn a <see cref="ConfigurableJoint"/>.</summary>
+[Words]
 public enum RotationDriveMode
 {
     /// <summary>angularXDrive and angularYZDrive.</summary>
@@ -26,6 +26,7 @@ public enum RotationDriveMode
 }
 
 /// <summary>Whether PhysX snaps a joint that came apart.</summary>
+[Words]
 public enum JointProjectionMode
 {
     /// <summary>Never.</summary>
@@ -33,29 +34,4 @@ public enum JointProjectionMode
 
     /// <summary>Past projectionDistance or projectionAngle.</summary>
     PositionAndRotation,
-}
-
-/// <summary>The words of the scene file for <see cref="ConfigurableJointMotion"/>.</summary>
-internal static class ConfigurableJointMotionWords
-{
-    internal static readonly Words<ConfigurableJointMotion> Table = new(
-        ("Locked", ConfigurableJointMotion.Locked),
-        ("Limited", ConfigurableJointMotion.Limited),
-        ("Free", ConfigurableJointMotion.Free));
-}
-
-/// <summary>The words of the scene file for <see cref="RotationDriveMode"/>.</summary>
-internal static class RotationDriveModeWords
-{
-    internal static readonly Words<RotationDriveMode> Table = new(
-        ("XYAndZ", RotationDriveMode.XYAndZ),
-        ("Slerp", RotationDriveMode.Slerp));
-}
-
-/// <summary>The words of the scene file for <see cref="JointProjectionMode"/>.</summary>
-internal static class JointProjectionModeWords
-{
-    internal static readonly Words<JointProjectionMode> Table = new(
-        ("None", JointProjectionMode.None),
-        ("PositionAndRotation", JointProjectionMode.PositionAndRotation));
 }

@@ -1,46 +1,8 @@
-using Kinefab.Json;
-using Kinefab.Reading;
-
 namespace Kinefab.Document;
 
 /// <summary>JointDrive: force = positionSpring * (target - position) + positionDamper * (target velocity - velocity).</summary>
-public sealed record JointDrive : DocumentObject
+public sealed partial record JointDrive : DocumentObject
 {
-    internal static readonly FieldNames Fields = new(
-        [],
-        "positionSpring", "positionDamper", "maximumForce", "useAcceleration", "extras");
-
-    /// <summary>Unity's defaults.</summary>
-    public JointDrive()
-    {
-    }
-
-    internal JointDrive(ref JsonCursor json)
-    {
-        FieldCursor fields = json.BeginObject(Fields);
-        while (json.NextField(ref fields))
-        {
-            switch (fields.Name)
-            {
-                case "positionSpring":
-                    PositionSpring = json.Number();
-                    break;
-                case "positionDamper":
-                    PositionDamper = json.Number();
-                    break;
-                case "maximumForce":
-                    MaximumForce = json.Number();
-                    break;
-                case "useAcceleration":
-                    UseAcceleration = json.Boolean();
-                    break;
-                case "extras":
-                    ExtrasJson = json.Extras();
-                    break;
-            }
-        }
-    }
-
     /// <summary>Unity's defaults: a drive that does nothing.</summary>
     public static JointDrive Default { get; } = new();
 

@@ -1,49 +1,8 @@
-using Kinefab.Json;
-using Kinefab.Reading;
-
 namespace Kinefab.Document;
 
 /// <summary>JointLimits of a <see cref="HingeJoint"/>.</summary>
-public sealed record JointLimits : DocumentObject
+public sealed partial record JointLimits : DocumentObject
 {
-    internal static readonly FieldNames Fields = new(
-        [],
-        "min", "max", "bounciness", "bounceMinVelocity", "contactDistance", "extras");
-
-    /// <summary>Unity's defaults.</summary>
-    public JointLimits()
-    {
-    }
-
-    internal JointLimits(ref JsonCursor json)
-    {
-        FieldCursor fields = json.BeginObject(Fields);
-        while (json.NextField(ref fields))
-        {
-            switch (fields.Name)
-            {
-                case "min":
-                    Min = json.Number();
-                    break;
-                case "max":
-                    Max = json.Number();
-                    break;
-                case "bounciness":
-                    Bounciness = json.Number();
-                    break;
-                case "bounceMinVelocity":
-                    BounceMinVelocity = json.Number();
-                    break;
-                case "contactDistance":
-                    ContactDistance = json.Number();
-                    break;
-                case "extras":
-                    ExtrasJson = json.Extras();
-                    break;
-            }
-        }
-    }
-
     /// <summary>Unity's defaults.</summary>
     public static JointLimits Default { get; } = new();
 

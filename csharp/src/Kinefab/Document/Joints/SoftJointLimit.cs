@@ -1,41 +1,8 @@
-using Kinefab.Json;
-using Kinefab.Reading;
-
 namespace Kinefab.Document;
 
 /// <summary>SoftJointLimit of a <see cref="ConfigurableJoint"/>.</summary>
-public sealed record SoftJointLimit : DocumentObject
+public sealed partial record SoftJointLimit : DocumentObject
 {
-    internal static readonly FieldNames Fields = new([], "limit", "bounciness", "contactDistance", "extras");
-
-    /// <summary>Unity's defaults.</summary>
-    public SoftJointLimit()
-    {
-    }
-
-    internal SoftJointLimit(ref JsonCursor json)
-    {
-        FieldCursor fields = json.BeginObject(Fields);
-        while (json.NextField(ref fields))
-        {
-            switch (fields.Name)
-            {
-                case "limit":
-                    Limit = json.Number();
-                    break;
-                case "bounciness":
-                    Bounciness = json.Number();
-                    break;
-                case "contactDistance":
-                    ContactDistance = json.Number();
-                    break;
-                case "extras":
-                    ExtrasJson = json.Extras();
-                    break;
-            }
-        }
-    }
-
     /// <summary>Unity's defaults.</summary>
     public static SoftJointLimit Default { get; } = new();
 

@@ -1,45 +1,14 @@
 using System;
 using System.Collections.Generic;
-using Kinefab.Json;
 using Kinefab.Numerics;
-using Kinefab.Reading;
 
 namespace Kinefab.Document;
 
 /// <summary>Local transforms of one GameObject at the clip's times.</summary>
-public sealed record AnimationTrack : DocumentObject
+public sealed partial record AnimationTrack : DocumentObject
 {
-    internal static readonly FieldNames Fields = new(["gameObject"], "localPosition", "localRotation", "extras");
-
-    /// <summary>With nothing stated.</summary>
-    public AnimationTrack()
-    {
-    }
-
-    internal AnimationTrack(ref JsonCursor json)
-    {
-        FieldCursor fields = json.BeginObject(Fields);
-        while (json.NextField(ref fields))
-        {
-            switch (fields.Name)
-            {
-                case "gameObject":
-                    GameObject = json.Int();
-                    break;
-                case "localPosition":
-                    LocalPosition = json.List(static (ref JsonCursor at) => at.Vector3());
-                    break;
-                case "localRotation":
-                    LocalRotation = json.List(static (ref JsonCursor at) => at.Quaternion());
-                    break;
-                case "extras":
-                    ExtrasJson = json.Extras();
-                    break;
-            }
-        }
-    }
-
     /// <summary>Index of the GameObject.</summary>
+    [Field(Required = true)]
     public int GameObject { get; init; }
 
     /// <summary>One for each time, metres; empty: it does not move.</summary>

@@ -6,9 +6,13 @@ namespace Kinefab.Document;
 
 /// <summary>Linear red, green, blue, alpha, each 0 to 1.</summary>
 [DebuggerDisplay("{ToString(),nq}")]
-public readonly struct Color
+public readonly record struct Color
 {
     /// <summary>From components.</summary>
+    /// <param name="r">Red, 0 to 1, linear.</param>
+    /// <param name="g">Green, 0 to 1, linear.</param>
+    /// <param name="b">Blue, 0 to 1, linear.</param>
+    /// <param name="a">Opacity, 0 to 1.</param>
     public Color(double r, double g, double b, double a)
     {
         R = r;
@@ -17,16 +21,16 @@ public readonly struct Color
         A = a;
     }
 
-    /// <summary>Red.</summary>
+    /// <summary>Red, 0 to 1, linear.</summary>
     public double R { get; }
 
-    /// <summary>Green.</summary>
+    /// <summary>Green, 0 to 1, linear.</summary>
     public double G { get; }
 
-    /// <summary>Blue.</summary>
+    /// <summary>Blue, 0 to 1, linear.</summary>
     public double B { get; }
 
-    /// <summary>Opacity.</summary>
+    /// <summary>Opacity, 0 to 1.</summary>
     public double A { get; }
 
     /// <summary>(1, 1, 1, 1).</summary>

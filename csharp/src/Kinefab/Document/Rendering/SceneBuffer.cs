@@ -1,54 +1,28 @@
 using System;
-using Kinefab.Json;
-using Kinefab.Reading;
+using System.Globalization;
+using System.Linq;
+using System.Security.Cryptography;
 
 namespace Kinefab.Document;
 
-/// <summary>A file of binary data beside the scene.</summary>
-public sealed record SceneBuffer : DocumentObject
+/// <summary>Binary data: a file beside the scene, or a part of the scene's own.</summary>
+public sealed partial record SceneBuffer : DocumentObject
 {
-    internal static readonly FieldNames Fields = new(["uri", "byteLength", "sha256"], "extras");
-
     private ReadOnlyMemory<byte>? data;
 
-    /// <summary>With nothing stated.</summary>
-    public SceneBuffer()
-    {
-    }
-
-    internal SceneBuffer(ref JsonCursor json)
-    {
-        FieldCursor fields = json.BeginObject(Fields);
-        while (json.NextField(ref fields))
-        {
-            switch (fields.Name)
-            {
-                case "uri":
-                    Uri = json.Text();
-                    break;
-                case "byteLength":
-                    ByteLength = json.Integer();
-                    break;
-                case "sha256":
-                    Sha256 = json.Text();
-                    break;
-                case "extras":
-                    ExtrasJson = json.Extras();
-                    break;
-            }
-        }
-    }
-
-    /// <summary>File name relative to the scene's folder; never absolute, never with "..".</summary>
-    public string Uri { get; init; } = "";
+    /// <summary>File name relative to the scene's folder; never absolute, never with "..". Null: the buffer lies in the scene's own file.</summary>
+    public string? Uri { get; init; }
 
     /// <summary>Size of the file in bytes.</summary>
+    [Field(Required = true)]
     public long ByteLength { get; init; }
 
     /// <summary>SHA-256 of the file's bytes, lower-case hexadecimal.</summary>
+    [Field(Required = true)]
     public string Sha256 { get; init; } = "";
 
     /// <summary>The bytes; null when they could not be had.</summary>
+    [Field(InFile = false)]
     public ReadOnlyMemory<byte>? Data
     {
         get => data;
@@ -68,5 +42,16 @@ public sealed record SceneBuffer : DocumentObject
         FoundLength = foundLength;
     }
 
-    private protected override string Describe() => $"buffer {Uri} of {ByteLength} bytes{(Data is null ? ", not loaded" : "")}";
+    /// <summary>With the size of its data; what is stated as their hash is kept.</summary>
+    internal SceneBuffer Stated() => this with { ByteLength = data!.Value.Length, Sha256 = Sha256.Length > 0 ? Sha256 : Hash(data.Value.Span) };
+
+    private static string Hash(ReadOnlySpan<byte> bytes)
+    {
+        Span<byte> hash = stackalloc byte[32];
+        using var algorithm = SHA256.Create();
+        algorithm.TryComputeHash(bytes, hash, out _);
+        return string.Concat(hash.ToArray().Select(b => b.ToString("x2", CultureInfo.InvariantCulture)));
+    }
+
+    private protected override string Describe() => $"buffer {Uri ?? "in the scene's file"} of {ByteLength} bytes{(Data is null ? ", not loaded" : "")}";
 }

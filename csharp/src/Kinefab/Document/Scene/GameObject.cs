@@ -1,61 +1,20 @@
 using System;
 using System.Collections.Generic;
 using System.Linq;
-using Kinefab.Json;
-using Kinefab.Reading;
 
 namespace Kinefab.Document;
 
 /// <summary>A node of the hierarchy.</summary>
-public sealed record GameObject : DocumentObject
+public sealed partial record GameObject : DocumentObject
 {
-    internal static readonly FieldNames Fields = new(
-        ["id", "name"],
-        "parent", "active", "transform", "components", "extras");
-
     private Component[] components = Array.Empty<Component>();
 
-    /// <summary>Unity's defaults.</summary>
-    public GameObject()
-    {
-    }
-
-    internal GameObject(ref JsonCursor json)
-    {
-        FieldCursor fields = json.BeginObject(Fields);
-        while (json.NextField(ref fields))
-        {
-            switch (fields.Name)
-            {
-                case "id":
-                    Id = json.Text();
-                    break;
-                case "name":
-                    Name = json.Text();
-                    break;
-                case "parent":
-                    Parent = json.Int();
-                    break;
-                case "active":
-                    Active = json.Boolean();
-                    break;
-                case "transform":
-                    Transform = new Transform(ref json);
-                    break;
-                case "components":
-                    SetComponents(json.List(ComponentReader.Read));
-                    break;
-                case "extras":
-                    ExtrasJson = json.Extras();
-                    break;
-            }
-        }
-    }
-
     /// <summary>Unique and stable: made from the source's own path.</summary>
+    [Field(Required = true)]
     public string Id { get; init; } = "";
 
     /// <summary>GameObject.name.</summary>
+    [Field(Required = true)]
     public string Name { get; init; } = "";
 
     /// <summary>Index of an EARLIER GameObject; null for a root.</summary>
@@ -68,11 +27,24 @@ public sealed record GameObject : DocumentObject
     public Transform Transform { get; init; } = Transform.Default;
 
     /// <summary>In order; couplings refer to joints by their place here.</summary>
+    [Field(Into = nameof(ReadComponents))]
     public IReadOnlyList<Component> Components
     {
         get => components;
         init => SetComponents(value.ToArray());
     }
+
+    /// <summary>The source's word for its layer; Unity's layers are the project's. Null for none.</summary>
+    [Since(1)]
+    public string? Layer { get; init; }
+
+    /// <summary>The source's word for its tag; null for none.</summary>
+    [Since(1)]
+    public string? Tag { get; init; }
+
+    /// <summary>Of the part, shared by all its occurrences; null when it is not told.</summary>
+    [Since(1)]
+    public string? Definition { get; init; }
 
     /// <summary>The same, without the price of an interface.</summary>
     internal ReadOnlySpan<Component> ComponentSpan => components;
@@ -82,6 +54,12 @@ public sealed record GameObject : DocumentObject
 
     /// <summary>The first ArticulationBody among the components; a valid scene has no second one.</summary>
     internal ArticulationBody? Link { get; private set; }
+
+    // Without a copy: nobody else has what was read.
+    private Component[] ReadComponents
+    {
+        init => SetComponents(value);
+    }
 
     private void SetComponents(Component[] value)
     {

@@ -6,7 +6,7 @@ namespace Kinefab.Document;
 internal static class JointExtras
 {
     /// <summary>The user's own name for the joint in the source; null when it is not told.</summary>
-    internal static string? Name(Joint joint) => Text(joint, "name");
+    internal static string? Name(Joint joint) => joint.Name is { Length: > 0 } name ? name : Text(joint, "name");
 
     /// <summary>Whether the source counts the connected body's motion against the own one.</summary>
     internal static bool CountsConnected(Joint joint) => Text(joint, "counts") == "connected";

@@ -1,54 +1,10 @@
-using Kinefab.Json;
 using Kinefab.Numerics;
-using Kinefab.Reading;
 
 namespace Kinefab.Document;
 
 /// <summary>Unity project settings that the mechanism was made for.</summary>
-public sealed record Physics : DocumentObject
+public sealed partial record Physics : DocumentObject
 {
-    internal static readonly FieldNames Fields = new(
-        [],
-        "gravity", "fixedTimestep", "solverIterations", "solverVelocityIterations", "bounceThreshold",
-        "defaultMaxAngularSpeed", "extras");
-
-    /// <summary>Unity's defaults.</summary>
-    public Physics()
-    {
-    }
-
-    internal Physics(ref JsonCursor json)
-    {
-        FieldCursor fields = json.BeginObject(Fields);
-        while (json.NextField(ref fields))
-        {
-            switch (fields.Name)
-            {
-                case "gravity":
-                    Gravity = json.Vector3();
-                    break;
-                case "fixedTimestep":
-                    FixedTimestep = json.Number();
-                    break;
-                case "solverIterations":
-                    SolverIterations = json.Int();
-                    break;
-                case "solverVelocityIterations":
-                    SolverVelocityIterations = json.Int();
-                    break;
-                case "bounceThreshold":
-                    BounceThreshold = json.Number();
-                    break;
-                case "defaultMaxAngularSpeed":
-                    DefaultMaxAngularSpeed = json.Number();
-                    break;
-                case "extras":
-                    ExtrasJson = json.Extras();
-                    break;
-            }
-        }
-    }
-
     /// <summary>Unity's defaults.</summary>
     public static Physics Default { get; } = new();
 

@@ -1,10 +1,10 @@
 using Kinefab.Diagnostics;
 using Kinefab.Json;
-using Kinefab.Reading;
 
 namespace Kinefab.Document;
 
 /// <summary>What became of a feature of the source.</summary>
+[Words(Letters.Camel)]
 public enum Outcome
 {
     /// <summary>It is in the scene as it was.</summary>
@@ -18,53 +18,14 @@ public enum Outcome
 }
 
 /// <summary>One line of the exporter's loss report.</summary>
-public sealed record ReportEntry : DocumentObject
+public sealed partial record ReportEntry : DocumentObject
 {
-    internal static readonly FieldNames Fields = new(
-        ["feature", "outcome"],
-        "severity", "code", "message", "source", "extras");
-
-    /// <summary>With nothing stated.</summary>
-    public ReportEntry()
-    {
-    }
-
-    internal ReportEntry(ref JsonCursor json)
-    {
-        FieldCursor fields = json.BeginObject(Fields);
-        while (json.NextField(ref fields))
-        {
-            switch (fields.Name)
-            {
-                case "feature":
-                    Feature = json.Text();
-                    break;
-                case "outcome":
-                    Outcome = json.Word(OutcomeWords.Table);
-                    break;
-                case "severity":
-                    Severity = json.Word(SeverityWords.Table);
-                    break;
-                case "code":
-                    Code = json.Text();
-                    break;
-                case "message":
-                    Message = json.Text();
-                    break;
-                case "source":
-                    Source = json.Text();
-                    break;
-                case "extras":
-                    ExtrasJson = json.Extras();
-                    break;
-            }
-        }
-    }
-
     /// <summary>Kind and id in the source.</summary>
+    [Field(Required = true)]
     public string Feature { get; init; } = "";
 
     /// <summary>What became of it.</summary>
+    [Field(Required = true)]
     public Outcome Outcome { get; init; }
 
     /// <summary>How grave that is; null: not stated.</summary>
@@ -80,15 +41,6 @@ public sealed record ReportEntry : DocumentObject
     public string? Source { get; init; }
 
     private protected override string Describe() => $"{Outcome} {Feature}{(Code is null ? "" : $" {Code}")}{(Message is null ? "" : $": {Message}")}";
-}
-
-/// <summary>The words of the scene file for <see cref="Outcome"/>.</summary>
-internal static class OutcomeWords
-{
-    internal static readonly Words<Outcome> Table = new(
-        ("kept", Outcome.Kept),
-        ("approximated", Outcome.Approximated),
-        ("dropped", Outcome.Dropped));
 }
 
 /// <summary>The words of the scene file for <see cref="Severity"/>.</summary>

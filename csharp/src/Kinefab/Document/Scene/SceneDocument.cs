@@ -1,8 +1,6 @@
 using System;
 using System.Collections.Generic;
 using System.Linq;
-using Kinefab.Json;
-using Kinefab.Reading;
 
 namespace Kinefab.Document;
 
@@ -10,79 +8,22 @@ namespace Kinefab.Document;
 /// A scene file as it stands: Unity's terms, left-handed, +Y up, +Z forward, metres, kilograms, seconds.
 /// Nothing has been checked but its shape; <c>SceneValidator</c> checks the rest.
 /// </summary>
-public sealed record SceneDocument : DocumentObject
+public sealed partial record SceneDocument : DocumentObject
 {
-    internal static readonly FieldNames Fields = new(
-        ["format", "version", "gameObjects"],
-        "generator", "source", "physics", "buffers", "meshes", "materials", "couplings", "animations", "constraints",
-        "analysis", "report", "extras");
-
     private GameObject[] gameObjects = Array.Empty<GameObject>();
     private SourceText? text;
 
-    /// <summary>With nothing in it.</summary>
-    public SceneDocument()
-    {
-    }
-
-    internal SceneDocument(ref JsonCursor json)
-    {
-        FieldCursor fields = json.BeginObject(Fields);
-        while (json.NextField(ref fields))
-        {
-            switch (fields.Name)
-            {
-                case "format":
-                    FormatVersion.ReadFormat(ref json);
-                    break;
-                case "version":
-                    Version = FormatVersion.ReadVersion(ref json);
-                    break;
-                case "generator":
-                    Generator = new Generator(ref json);
-                    break;
-                case "source":
-                    Source = new SceneSource(ref json);
-                    break;
-                case "physics":
-                    Physics = new Physics(ref json);
-                    break;
-                case "buffers":
-                    Buffers = json.List(static (ref JsonCursor at) => new SceneBuffer(ref at));
-                    break;
-                case "meshes":
-                    Meshes = json.List(static (ref JsonCursor at) => new Mesh(ref at));
-                    break;
-                case "materials":
-                    Materials = json.List(static (ref JsonCursor at) => new Material(ref at));
-                    break;
-                case "gameObjects":
-                    gameObjects = json.List(static (ref JsonCursor at) => new GameObject(ref at));
-                    break;
-                case "couplings":
-                    Couplings = json.List(static (ref JsonCursor at) => new Coupling(ref at));
-                    break;
-                case "animations":
-                    Animations = json.List(static (ref JsonCursor at) => new AnimationClip(ref at));
-                    break;
-                case "constraints":
-                    Constraints = json.List(static (ref JsonCursor at) => new Constraint(ref at));
-                    break;
-                case "analysis":
-                    Analysis = new Analysis(ref json);
-                    break;
-                case "report":
-                    Report = json.List(static (ref JsonCursor at) => new ReportEntry(ref at));
-                    break;
-                case "extras":
-                    ExtrasJson = json.Extras();
-                    break;
-            }
-        }
-    }
+    /// <summary>What kind of file it is.</summary>
+    [Field(Required = true, Reader = "FormatVersion.ReadFormat")]
+    internal string Format { get; init; } = FormatVersion.Format;
 
     /// <summary>Version of the format that the file states, "1.x".</summary>
+    [Field(Required = true, Reader = "FormatVersion.ReadVersion")]
     public string Version { get; init; } = "1.0";
+
+    /// <summary>The kind of file that it was read from, or is to be saved as.</summary>
+    [Field(InFile = false)]
+    public SceneContainer Container { get; init; }
 
     /// <summary>The program that wrote the file; null: not stated.</summary>
     public Generator? Generator { get; init; }
@@ -103,6 +44,7 @@ public sealed record SceneDocument : DocumentObject
     public IReadOnlyList<Material> Materials { get; init; } = Array.Empty<Material>();
 
     /// <summary>Flat and ordered: a parent stands before its children.</summary>
+    [Field(Required = true, Into = nameof(gameObjects))]
     public IReadOnlyList<GameObject> GameObjects
     {
         get => gameObjects;

@@ -1,42 +1,10 @@
-using Kinefab.Json;
 using Kinefab.Numerics;
-using Kinefab.Reading;
 
 namespace Kinefab.Document;
 
 /// <summary>Transform, local to the parent.</summary>
-public sealed record Transform : DocumentObject
+public sealed partial record Transform : DocumentObject
 {
-    internal static readonly FieldNames Fields = new([], "localPosition", "localRotation", "localScale", "extras");
-
-    /// <summary>Unity's defaults.</summary>
-    public Transform()
-    {
-    }
-
-    internal Transform(ref JsonCursor json)
-    {
-        FieldCursor fields = json.BeginObject(Fields);
-        while (json.NextField(ref fields))
-        {
-            switch (fields.Name)
-            {
-                case "localPosition":
-                    LocalPosition = json.Vector3();
-                    break;
-                case "localRotation":
-                    LocalRotation = json.Quaternion();
-                    break;
-                case "localScale":
-                    LocalScale = json.Vector3();
-                    break;
-                case "extras":
-                    ExtrasJson = json.Extras();
-                    break;
-            }
-        }
-    }
-
     /// <summary>At the parent's origin, unturned, unscaled.</summary>
     public static Transform Default { get; } = new();
 

@@ -1,4 +1,4 @@
-using System.Collections.Generic;
+using System;
 using Kinefab.Joints;
 
 namespace Kinefab.Dynamics.Rattle;
@@ -12,22 +12,10 @@ internal readonly struct LayoutWatch
     private readonly JointModel[] _joints;
     private readonly int[] _signatures;
 
-    public LayoutWatch(List<Island> islands)
+    public LayoutWatch(JointModel[] joints)
     {
-        var joints = new List<JointModel>();
-        foreach (Island island in islands)
-        {
-            foreach (RowBlock block in island.Blocks)
-            {
-                if (block.Joint != null)
-                {
-                    joints.Add(block.Joint);
-                }
-            }
-        }
-
-        _joints = joints.ToArray();
-        _signatures = joints.ConvertAll(joint => joint.Layout().Signature).ToArray();
+        _joints = Array.FindAll(joints, joint => !joint.IsBroken);
+        _signatures = Array.ConvertAll(_joints, joint => joint.Layout().Signature);
     }
 
     /// <summary>Whether a joint broke or changed since.</summary>

@@ -115,7 +115,15 @@ internal sealed class RattleSolver : ISolver
         _mechanism.HasChangedBodies = false;
         _groups.Clear();
         List<Island> rest = IslandFinder.Find(_mechanism);
-        _watch = new LayoutWatch(rest);
+        _watch = new LayoutWatch(_mechanism.Joints);
+        for (int i = 0; i < _mechanism.Joints.Length; i++)
+        {
+            if (_mechanism.Joints[i].Layout().IsEmpty)
+            {
+                _mechanism.Reactions[i] = default;
+            }
+        }
+
         foreach (Island island in rest)
         {
             // What a break has left of an island that was probed is still as it was found.

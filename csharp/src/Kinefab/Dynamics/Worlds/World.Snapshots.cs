@@ -10,6 +10,7 @@ public sealed partial class World
     /// Takes down the whole state: poses, velocities, forces, settings, drives, turns, broken joints, time, findings, and what the solver
     /// remembers. The motion goes on as if none had been taken.
     /// </summary>
+    /// <returns>For <see cref="Restore"/> of this world, any number of times.</returns>
     /// <example><code>
     /// WorldSnapshot before = world.Snapshot();
     /// world.Run(2);

@@ -125,6 +125,7 @@ public sealed partial class World
     /// <summary>The bodies, joints and couplings of a scene at its start pose. Inactive objects are left out.</summary>
     /// <param name="scene">A valid one.</param>
     /// <param name="solver">As Unity moves it, or as it truly moves.</param>
+    /// <returns>At time zero, nothing moved yet.</returns>
     public static World Create(ValidScene scene, SolverKind solver = SolverKind.Unity)
     {
         if (scene is null)
@@ -148,6 +149,7 @@ public sealed partial class World
 
     /// <summary>The body of the GameObject with an id, or with a name that no other has.</summary>
     /// <param name="idOrName">Such as Lever/Crank:1.</param>
+    /// <returns>The body as it moves: reading it later gives what is then true.</returns>
     /// <exception cref="ArgumentException">There is no such body; the message says which there are.</exception>
     public WorldBody Body(string idOrName) => _names.Body(idOrName ?? throw new ArgumentNullException(nameof(idOrName)));
 
@@ -156,6 +158,7 @@ public sealed partial class World
     /// id or name, with [COMPONENT] behind it where that carries several. A <see cref="WorldJoint.Name"/> always finds its own.
     /// </summary>
     /// <param name="name">Such as Shaft, Lever/Crank:1, or Arm:2[3] for the fourth component of Arm:2.</param>
+    /// <returns>The joint as it moves; reading it later gives what is then true.</returns>
     /// <exception cref="ArgumentException">None answers to it, or several do; the message says which there are.</exception>
     public WorldJoint Joint(string name) => _names.Joint(name ?? throw new ArgumentNullException(nameof(name)));
 

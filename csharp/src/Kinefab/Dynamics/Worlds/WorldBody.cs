@@ -131,14 +131,18 @@ public sealed class WorldBody
     public double KineticEnergy => _bodies.KineticEnergy(_index);
 
     /// <summary>A force at the centre of mass over the next step, world frame, N.</summary>
+    /// <param name="force">N, world frame; several add up.</param>
     /// <exception cref="ArgumentOutOfRangeException">A component is no number.</exception>
     public void AddForce(Vector3d force) => _bodies.Forces[_index] += force.FiniteOrThrow(nameof(force));
 
     /// <summary>A torque over the next step, world frame, N m.</summary>
+    /// <param name="torque">N m, world frame, left-handed sense; several add up.</param>
     /// <exception cref="ArgumentOutOfRangeException">A component is no number.</exception>
     public void AddTorque(Vector3d torque) => _bodies.Torques[_index] += torque.FiniteOrThrow(nameof(torque));
 
     /// <summary>A force over the next step at a point of the world, N.</summary>
+    /// <param name="force">N, world frame; several add up.</param>
+    /// <param name="position">A point of the world, metres.</param>
     /// <exception cref="ArgumentOutOfRangeException">A component is no number.</exception>
     public void AddForceAtPosition(Vector3d force, Vector3d position)
     {

@@ -16,6 +16,7 @@ public sealed partial class Mechanism
     /// <param name="steps">At least 1; one state more is kept.</param>
     /// <param name="progress">Told the number of steps done after each; null: nobody is.</param>
     /// <param name="cancellation">Ends the sweep early.</param>
+    /// <returns>A state for each value reached, the first at the start; where the motion ended early, why.</returns>
     /// <exception cref="ArgumentException">No coordinate answers to the name, or several do (the message says which there are); or a value is no finite number.</exception>
     /// <exception cref="OperationCanceledException">It was cancelled.</exception>
     /// <example><code>

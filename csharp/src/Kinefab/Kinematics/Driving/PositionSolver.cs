@@ -18,6 +18,7 @@ public sealed class PositionSolver
     private readonly Dictionary<int, PointDrag> _drags = new();
 
     /// <summary>A solver for a mechanism.</summary>
+    /// <param name="mechanism">Whose states it moves; one solver serves one thread.</param>
     public PositionSolver(Mechanism mechanism)
     {
         Mechanism = mechanism ?? throw new ArgumentNullException(nameof(mechanism));
@@ -109,6 +110,7 @@ public sealed class PositionSolver
     /// <param name="state">Closed; not changed.</param>
     /// <param name="coordinate">Index into the mechanism's coordinates.</param>
     /// <param name="isRising">Driven upwards, or downwards.</param>
+    /// <returns>One entry a way, each with the rates of all coordinates against the driven one; empty at a dead centre.</returns>
     public IReadOnlyList<MotionBranch> Branches(MechanismState state, int coordinate, bool isRising = true)
     {
         Check(state);
@@ -155,11 +157,14 @@ public sealed class PositionSolver
     /// <param name="gameObject">Id, or a name that no other has, of a GameObject that a Rigidbody moves.</param>
     /// <param name="point">In the GameObject's own unscaled frame, metres.</param>
     /// <param name="target">World, metres.</param>
+    /// <returns>How near the point came, and what ended the pull.</returns>
     /// <exception cref="ArgumentException">As for the other one; or none has the id or name, or several have the name: the message says which there are.</exception>
     public DriveResult Drag(MechanismState state, string gameObject, Vector3d point, Vector3d target) =>
         Drag(state, Mechanism.GameObjectNamed(gameObject), point, target);
 
     /// <summary>Closes all joints and couplings from wherever the state stands, moving the joints little; limits are not looked at.</summary>
+    /// <param name="state">Where to start from; moved.</param>
+    /// <returns>The gap that is left, and whether it is within tolerance.</returns>
     public DriveResult Close(MechanismState state)
     {
         Check(state);

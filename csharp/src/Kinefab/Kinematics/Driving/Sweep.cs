@@ -19,6 +19,7 @@ public sealed class Sweep
     private readonly MechanismState _back;
 
     /// <summary>Sweeps with a solver of the caller's.</summary>
+    /// <param name="solver">Of the mechanism whose states are swept.</param>
     public Sweep(PositionSolver solver)
     {
         _solver = solver ?? throw new ArgumentNullException(nameof(solver));
@@ -38,6 +39,7 @@ public sealed class Sweep
     /// <param name="steps">At least 1; one state more is kept.</param>
     /// <param name="progress">Told the number of steps done after each; null: nobody is.</param>
     /// <param name="cancellation">Ends the sweep early; the state then stands somewhere on the way.</param>
+    /// <returns>A state for each value reached; where the motion ended early, why.</returns>
     /// <exception cref="ArgumentException">The state is another mechanism's, there is no such coordinate, or a value is no finite number.</exception>
     /// <exception cref="OperationCanceledException">It was cancelled.</exception>
     public SweepResult Run(MechanismState state, int coordinate, double from, double to, int steps, IProgress<int>? progress = null, CancellationToken cancellation = default)
@@ -94,6 +96,7 @@ public sealed class Sweep
     /// <param name="state">Not changed.</param>
     /// <param name="coordinate">Index into the mechanism's coordinates.</param>
     /// <param name="cancellation">Ends the search early.</param>
+    /// <returns>The lowest and the highest value, degrees or metres, each with what ends the motion there.</returns>
     /// <exception cref="ArgumentException">The state is another mechanism's, or there is no such coordinate.</exception>
     /// <exception cref="OperationCanceledException">It was cancelled.</exception>
     public (RangeLimit Low, RangeLimit High) Range(MechanismState state, int coordinate, CancellationToken cancellation = default) =>

@@ -118,6 +118,7 @@ public sealed class SweepResult
     /// <summary>Where a GameObject stands in one of the states; Unity's frame, metres.</summary>
     /// <param name="idOrName">Its id, or a name that no other has: Lever/BarC:1 or BarC:1.</param>
     /// <param name="state">Index into <see cref="States"/>.</param>
+    /// <returns>Unity's left-handed frame, metres.</returns>
     /// <exception cref="ArgumentException">None has it, or several have the name: the message says which there are.</exception>
     /// <exception cref="ArgumentOutOfRangeException">There is no such state.</exception>
     public Pose Pose(string idOrName, int state) => (uint)state < (uint)States.Count

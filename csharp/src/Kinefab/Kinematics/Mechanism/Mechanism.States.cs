@@ -6,6 +6,7 @@ namespace Kinefab.Kinematics;
 public sealed partial class Mechanism
 {
     /// <summary>A state at the exported pose.</summary>
+    /// <returns>Of its own: several may be moved side by side.</returns>
     public MechanismState NewState()
     {
         var state = new MechanismState(this, _start.Length, _coordinates.Length);

@@ -90,6 +90,7 @@ public sealed partial class Mechanism
         for (int i = 0; i < _coordinates.Length; i++)
         {
             _coordinates[i].Name = _names[i];
+            _coordinates[i].ShortName = _names.Short(i);
         }
 
         PositionCoupling[] couplings = PositionCoupling.Of(scene.Document.Couplings, _coordinates);
@@ -149,6 +150,7 @@ public sealed partial class Mechanism
 
     /// <summary>The mechanism of a scene.</summary>
     /// <param name="scene">A valid one, see <see cref="ValidScene.Load(string, SceneReadOptions?, CancellationToken)"/>.</param>
+    /// <returns>Its coordinates are zero at the exported pose.</returns>
     public static Mechanism Create(ValidScene scene)
     {
         if (scene is null)
@@ -157,6 +159,10 @@ public sealed partial class Mechanism
     }
 
     /// <summary>Index of a joint's coordinate in <see cref="Coordinates"/>; -1 when the joint has it locked, unless a coupling names it, or is not there.</summary>
+    /// <param name="gameObject">Index of the GameObject that carries the joint.</param>
+    /// <param name="component">Index of the joint among its components.</param>
+    /// <param name="coordinate">Which of the joint's motions.</param>
+    /// <returns>An index, or -1.</returns>
     public int FindCoordinate(int gameObject, int component, Coordinate coordinate)
     {
         for (int i = 0; i < _coordinates.Length; i++)
@@ -177,6 +183,7 @@ public sealed partial class Mechanism
     /// <param name="name">Such as Shaft, Shaft.angle, Lever/Crank:1 or Lever/Crank:1.angle.</param>
     /// <param name="coordinate">Index into <see cref="Coordinates"/>; -1: none answers, or several do.</param>
     /// <param name="problem">What is wrong with the name and which there are; empty: nothing.</param>
+    /// <returns>True where just one coordinate answers to the name.</returns>
     /// <exception cref="ArgumentNullException">There is no name.</exception>
     public bool TryFindCoordinate(string name, out int coordinate, out string problem) =>
         _names.TryFind(name ?? throw new ArgumentNullException(nameof(name)), out coordinate, out problem);
@@ -190,6 +197,7 @@ public sealed partial class Mechanism
 
     /// <summary>Index of the GameObject with an id, or with a name that no other has.</summary>
     /// <param name="idOrName">Such as Lever/Crank:1 or Crank:1.</param>
+    /// <returns>An index into the document's GameObjects.</returns>
     /// <exception cref="ArgumentException">None has it, or several have the name: the message says which.</exception>
     public int GameObjectNamed(string idOrName)
     {
@@ -205,6 +213,7 @@ public sealed partial class Mechanism
 
     /// <summary>The coupling with an id: what the CAD program calls it.</summary>
     /// <param name="id">A <see cref="Coupling.Id"/>.</param>
+    /// <returns>The coupling as the mechanism holds it.</returns>
     /// <exception cref="ArgumentException">None has it, or several have: the message says which there are.</exception>
     public Coupling Coupling(string id)
     {

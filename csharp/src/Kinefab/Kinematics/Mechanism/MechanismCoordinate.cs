@@ -33,6 +33,12 @@ public sealed class MechanismCoordinate
     /// </summary>
     public string Name { get; internal set; } = "";
 
+    /// <summary>
+    /// The shortest of the names that find it: what the CAD program calls its joint (Shaft), with the coordinate behind it where the
+    /// joint has several (Arm.angularX); else the GameObject's id, else <see cref="Name"/>.
+    /// </summary>
+    public string ShortName { get; internal set; } = "";
+
     /// <summary>Index of the GameObject that carries the joint.</summary>
     public int GameObject { get; }
 
@@ -56,10 +62,12 @@ public sealed class MechanismCoordinate
     /// about the axis of a slide; a file of format 1.0 tells no offset, so that zero is the exported pose.
     /// </summary>
     /// <param name="value">Unity's, degrees or metres.</param>
+    /// <returns>Degrees or metres, in the CAD program's sense.</returns>
     public double ToCad(double value) => _cad.Sign * value + _cad.Offset;
 
     /// <summary>The value of this coordinate that the CAD program shows as another: the way back from <see cref="ToCad"/>.</summary>
     /// <param name="shown">The CAD program's, degrees or metres.</param>
+    /// <returns>Degrees or metres, left-handed sense, zero at the exported pose.</returns>
     public double FromCad(double shown) => _cad.Sign * (shown - _cad.Offset);
 
     /// <summary>Lever/Crank:1.angle [deg].</summary>

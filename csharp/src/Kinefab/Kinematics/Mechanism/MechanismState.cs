@@ -40,6 +40,7 @@ public sealed class MechanismState
 
     /// <summary>A coordinate, degrees (over any number of turns) or metres, zero at the exported pose.</summary>
     /// <param name="coordinate">Index into the mechanism's coordinates.</param>
+    /// <returns>Degrees or metres, left-handed sense.</returns>
     /// <exception cref="ArgumentOutOfRangeException">There is no such coordinate.</exception>
     public double Coordinate(int coordinate) => (uint)coordinate < (uint)Values.Length
         ? Mechanism.Coordinates[coordinate].ToExternal(Values[coordinate])
@@ -47,16 +48,19 @@ public sealed class MechanismState
 
     /// <summary>The same as <see cref="this[string]"/>.</summary>
     /// <param name="name">Such as Slide or Lever/Crank:1.angle.</param>
+    /// <returns>Degrees or metres, left-handed sense.</returns>
     /// <exception cref="ArgumentException">None answers to the name, or several do: the message says which there are.</exception>
     public double Coordinate(string name) => this[name];
 
     /// <summary>World pose of a GameObject in Unity's frame, metres.</summary>
     /// <param name="gameObject">Index of the GameObject.</param>
+    /// <returns>Unity's left-handed frame, metres.</returns>
     /// <exception cref="ArgumentOutOfRangeException">There is no such GameObject.</exception>
     public Pose Pose(int gameObject) => Mechanism.PoseOfGameObject(gameObject, Poses);
 
     /// <summary>World pose of the GameObject with an id, or with a name that no other has; Unity's frame, metres.</summary>
     /// <param name="idOrName">Such as Lever/BarC:1 or BarC:1.</param>
+    /// <returns>Unity's left-handed frame, metres.</returns>
     /// <exception cref="ArgumentException">None has it, or several have the name: the message says which there are.</exception>
     public Pose Pose(string idOrName) => Pose(Mechanism.GameObjectNamed(idOrName));
 
@@ -98,6 +102,7 @@ public sealed class MechanismState
     }
 
     /// <summary>Takes over another state of the same mechanism.</summary>
+    /// <param name="other">Left as it is.</param>
     public void CopyFrom(MechanismState other)
     {
         if (other is null)
@@ -110,6 +115,68 @@ public sealed class MechanismState
         IsAtCrossing = other.IsAtCrossing;
     }
 
+    /// <summary>How many numbers <see cref="CopyTo"/> writes.</summary>
+    public int NumberCount => 7 * Poses.Length + 2 * Values.Length + 1;
+
+    /// <summary>
+    /// Writes the whole state, to be kept somewhere and read again by <see cref="CopyFrom(ReadOnlySpan{double})"/> for the same scene: after it
+    /// every drive gives the same bits as if nothing had been written.
+    /// </summary>
+    /// <param name="numbers">At least <see cref="NumberCount"/> long.</param>
+    /// <exception cref="ArgumentException">It is shorter.</exception>
+    public void CopyTo(Span<double> numbers)
+    {
+        if (numbers.Length < NumberCount)
+            throw new ArgumentException($"The state has {NumberCount} numbers.", nameof(numbers));
+        int at = 0;
+        foreach (Pose pose in Poses)
+        {
+            numbers[at++] = pose.Position.X;
+            numbers[at++] = pose.Position.Y;
+            numbers[at++] = pose.Position.Z;
+            numbers[at++] = pose.Rotation.X;
+            numbers[at++] = pose.Rotation.Y;
+            numbers[at++] = pose.Rotation.Z;
+            numbers[at++] = pose.Rotation.W;
+        }
+
+        Values.CopyTo(numbers.Slice(at));
+        Trail.CopyTo(numbers.Slice(at + Values.Length));
+        numbers[at + 2 * Values.Length] = IsAtCrossing ? 1 : 0;
+    }
+
+    /// <summary>Takes over what <see cref="CopyTo"/> wrote.</summary>
+    /// <param name="numbers">All of them, and no more.</param>
+    /// <exception cref="ArgumentException">They are of another mechanism, or not finite, or hold no poses: the state is as before.</exception>
+    public void CopyFrom(ReadOnlySpan<double> numbers)
+    {
+        if (numbers.Length != NumberCount)
+            throw new ArgumentException($"The state has {NumberCount} numbers.", nameof(numbers));
+        for (int i = 0; i < numbers.Length; i++)
+        {
+            if (!Finite.Is(numbers[i]))
+                throw new ArgumentException("Not finite.", nameof(numbers));
+        }
+
+        for (int i = 0; i < Poses.Length; i++)
+        {
+            ReadOnlySpan<double> q = numbers.Slice(7 * i + 3, 4);
+            if (!(Math.Abs(q[0] * q[0] + q[1] * q[1] + q[2] * q[2] + q[3] * q[3] - 1) < 1e-4))
+                throw new ArgumentException("A rotation is no unit quaternion.", nameof(numbers));
+        }
+
+        for (int i = 0; i < Poses.Length; i++)
+        {
+            ReadOnlySpan<double> n = numbers.Slice(7 * i, 7);
+            Poses[i] = new Pose(new Vector3d(n[0], n[1], n[2]), new Quaterniond(n[3], n[4], n[5], n[6]));
+        }
+
+        int at = 7 * Poses.Length;
+        numbers.Slice(at, Values.Length).CopyTo(Values);
+        numbers.Slice(at + Values.Length, Values.Length).CopyTo(Trail);
+        IsAtCrossing = numbers[at + 2 * Values.Length] != 0;
+    }
+
     /// <summary>Forgets the way here: after it the state stands as if it had always stood there.</summary>
     internal void ForgetTrail()
     {
@@ -118,6 +185,7 @@ public sealed class MechanismState
     }
 
     /// <summary>A state of its own with the same poses.</summary>
+    /// <returns>Moving it leaves this one where it is.</returns>
     public MechanismState Clone()
     {
         var copy = new MechanismState(Mechanism, Poses.Length, Values.Length);

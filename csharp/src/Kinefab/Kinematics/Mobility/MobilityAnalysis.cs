@@ -15,6 +15,7 @@ public static class MobilityAnalysis
     /// <param name="mechanism">Not changed.</param>
     /// <param name="progress">Told the share of the blocks that is done, 0 to 1; null: nobody is.</param>
     /// <param name="cancellation">Ends the analysis early.</param>
+    /// <returns>Freedoms of the whole, of each island and the idle ones among them.</returns>
     /// <exception cref="OperationCanceledException">It was cancelled.</exception>
     public static MobilityReport Of(Mechanism mechanism, IProgress<double>? progress = null, CancellationToken cancellation = default)
     {

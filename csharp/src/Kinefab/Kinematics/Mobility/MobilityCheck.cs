@@ -15,6 +15,9 @@ namespace Kinefab.Kinematics;
 public static class MobilityCheck
 {
     /// <summary>One error for each number that differs; nothing where the file holds no analysis.</summary>
+    /// <param name="scene">Whose file states what the exporter counted.</param>
+    /// <param name="counted">What was counted here.</param>
+    /// <returns>The differences, with the place of each number in the file; empty where all agree.</returns>
     public static Report Compare(ValidScene scene, MobilityReport counted)
     {
         if (scene is null)

@@ -10,6 +10,8 @@ namespace Kinefab.Validation;
 public readonly struct WorldTransform
 {
     /// <summary>From parts.</summary>
+    /// <param name="pose">Of the GameObject in the world, Unity's frame, metres.</param>
+    /// <param name="scale">Along its own axes, without unit.</param>
     public WorldTransform(Pose pose, Vector3d scale)
     {
         Pose = pose;

@@ -1,7 +1,9 @@
 using System;
+using System.Buffers;
 using System.Globalization;
 using System.Runtime.InteropServices;
 using System.Security.Cryptography;
+using System.Threading;
 using Kinefab.Diagnostics;
 using Kinefab.Document;
 using Kinefab.Json;
@@ -11,18 +13,21 @@ namespace Kinefab.Validation;
 /// <summary>Buffers: that they are the ones the scene was written with, and hold what meshes say they hold.</summary>
 internal static class BufferRules
 {
+    // Bytes hashed between two looks for a cancellation.
+    private const int MostAtOnce = 1 << 20;
+
     /// <summary>Whether a buffer can be used at all.</summary>
-    internal static bool Check(SceneBuffer buffer, in Place at)
+    internal static bool Check(SceneBuffer buffer, in Place at, CancellationToken cancellation)
     {
         NumberRules.AtLeast(at, "byteLength", buffer.ByteLength, 0);
         bool named = Sha256(buffer.Sha256, "sha256", at);
-        if (!BufferUri.IsSafe(buffer.Uri))
+        if (buffer.Uri is string uri && !BufferUri.IsSafe(uri))
         {
-            at.Report("uri", DiagnosticCodes.BufferUriUnsafe, ("uri", buffer.Uri));
+            at.Report("uri", DiagnosticCodes.BufferUriUnsafe, ("uri", uri));
             return false;
         }
 
-        return Present(buffer, at) && named && SameBytes(buffer, at);
+        return Present(buffer, at) && named && SameBytes(buffer, at, cancellation);
     }
 
     /// <summary>64 lower-case hexadecimal digits.</summary>
@@ -91,7 +96,7 @@ internal static class BufferRules
         long found = buffer.Data?.Length ?? buffer.FoundLength;
         if (found < 0)
         {
-            at.Report("uri", DiagnosticCodes.BufferMissing, ("uri", buffer.Uri), ("detail", buffer.Fault ?? "nobody gave its bytes"));
+            at.Report(buffer.Uri is null ? "" : "uri", DiagnosticCodes.BufferMissing, ("uri", buffer.Uri ?? "of this file"), ("detail", buffer.Fault ?? "nobody gave its bytes"));
             return false;
         }
 
@@ -101,20 +106,28 @@ internal static class BufferRules
         return false;
     }
 
-    private static bool SameBytes(SceneBuffer buffer, in Place at)
+    private static bool SameBytes(SceneBuffer buffer, in Place at, CancellationToken cancellation)
     {
-        Span<byte> hash = stackalloc byte[32];
-#if NET5_0_OR_GREATER
-        SHA256.HashData(buffer.Data!.Value.Span, hash);
-#else
-        using (SHA256 algorithm = SHA256.Create())
-            algorithm.TryComputeHash(buffer.Data!.Value.Span, hash, out _);
-#endif
+        using var algorithm = IncrementalHash.CreateHash(HashAlgorithmName.SHA256);
+
+        // netstandard2.1 hashes arrays alone.
+        byte[] part = ArrayPool<byte>.Shared.Rent(MostAtOnce);
+        for (ReadOnlySpan<byte> rest = buffer.Data!.Value.Span; rest.Length > 0;)
+        {
+            cancellation.ThrowIfCancellationRequested();
+            int length = Math.Min(rest.Length, part.Length);
+            rest.Slice(0, length).CopyTo(part);
+            algorithm.AppendData(part, 0, length);
+            rest = rest.Slice(length);
+        }
+
+        ArrayPool<byte>.Shared.Return(part);
+        byte[] hash = algorithm.GetHashAndReset();
         for (int i = 0; i < hash.Length; i++)
         {
             if (hash[i] == Hex(buffer.Sha256[2 * i]) * 16 + Hex(buffer.Sha256[2 * i + 1]))
                 continue;
-            at.Report("sha256", DiagnosticCodes.BufferSha256, ("uri", buffer.Uri));
+            at.Report("sha256", DiagnosticCodes.BufferSha256, ("uri", buffer.Uri ?? "What lies in this file"));
             return false;
         }
 

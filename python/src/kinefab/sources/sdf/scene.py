@@ -28,6 +28,7 @@ from ...model import (
 from ...spatial import Array, Pose, frame_from_axes
 from ..robots.rigid_links import Carrier, Link, add_links, unique
 from ..robots.robot_frame import TURN, placed
+from .contacts import keep_apart
 from .joints import SdfJoint, read_joint
 from .links import Links
 from .materials import Materials
@@ -66,6 +67,7 @@ def fill_scene(scene: Scene, root: Scope, report: Report) -> None:
         (a, b) for j, a, b in ends if j.kind not in ("fixed", "gearbox") and a is not None and b is not None
     ]
     carriers = add_links(scene, made, fixed, joined, report)
+    keep_apart(scene, entries, made, carriers, joined, report)
     writer = _Joints(scene, made, carriers, number, report)
     for joint in joints:
         writer.add(joint)

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator, Sequence
-from dataclasses import replace
 from functools import partial
 from itertools import islice
 
@@ -29,7 +28,7 @@ from .files import AssetFile
 from .losses import empty_colliders, tell_couplings, tell_losses, tell_names
 from .meshes import mesh_name, mesh_origin
 from .names import file_name, folded, most_bytes, unique
-from .objects.couplings import ASSEMBLY, FOLDER, SCRIPT, script_guid
+from .objects.couplings import ASSEMBLY, FOLDER, SCRIPT, is_kept_by_script, script_guid
 from .objects.hierarchy import Hierarchy, References
 from .options import PrefabOptions
 from .text.dialects import Pipeline
@@ -70,19 +69,17 @@ class _Export:
         self.scripts_folder, self.identity = scripts_folder, identity or name
         self.content, self.name, self.options = content, name, options
         self.scene = content.unity(links=options.articulation)
-        self.couplings = self.scene.couplings if options.articulation else ()
         if options.articulation:
             stated = {joint.id: joint for joint in content.scene.joints}
-            self.scene = replace(articulated(self.scene, stated, content.report), couplings=())
+            self.scene = articulated(self.scene, stated, content.report)
         self.dialect = options.dialect
         self.found: list[AssetFile] = []
 
     def files(self) -> list[AssetFile]:
         scene, report = self.scene, self.content.report
         tell_losses(scene, self.options, report)
-        if not self.options.scripts:
-            tell_couplings(scene.couplings, report)
-        tell_couplings(self.couplings, report)
+        kept = [c for c in scene.couplings if self.options.scripts and is_kept_by_script(c, scene)]
+        tell_couplings([c for c in scene.couplings if c not in kept], report)
         left_out, identities = empty_colliders(scene, report), self.content.scene.identities
         hierarchy = Hierarchy(scene, self.name, self.dialect, left_out, identities)
         tell_names(scene, hierarchy.scene_names, report)
@@ -92,8 +89,8 @@ class _Export:
         hierarchy.add_components(references)
         if references.clips:
             hierarchy.add_clips(references.clips, plays=not _moved_by_forces(scene))
-        if self.options.scripts and scene.couplings:
-            hierarchy.add_couplings()
+        if kept:
+            hierarchy.add_couplings(kept)
             if self.scripts_folder is not None:
                 self.found += script_files(self.scripts_folder)
         folders = sorted({file.path.rpartition("/")[0] for file in self.found} | {self.name})

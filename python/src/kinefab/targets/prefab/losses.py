@@ -76,6 +76,8 @@ def _tell_rigidbody(body: Rigidbody, owner: str, options: PrefabOptions, report:
 
 
 def _tell_link(link: ArticulationBody, owner: str, options: PrefabOptions, report: Report) -> None:
+    if link.maxJointVelocity is not None:  # which Unity takes from a script only
+        report.field_dropped(f"link {owner}", "maxJointVelocity", TARGET)
     if options.dialect.mass_properties:
         return
     if not link.immovable:

@@ -35,6 +35,8 @@ from ...model import (
 from ...spatial import Array, Pose, frame_from_axes, matrix_from_quaternion
 from .. import frames
 from ..scene.joints.configurable_joint import MOTION_FIELDS
+from .drives import breaks, driven, hinge_turn, slerp_of
+from .links import LINK, link_basis, link_freedoms
 
 WORLD = "the world"
 """Id of the node that stands for the world, on which joints without a connected body hang."""
@@ -54,7 +56,9 @@ class _Reading:
         self.active: list[bool] = []
         self.nodes: list[Node] = [Node(WORLD, WORLD, grounded=True, visible=False)]
         self.node_of: list[int] = []
-        """The node of each object: its own Rigidbody's or that of the next one above it, 0 for the world's."""
+        """The node of each object: its own body's or that of the next one above it, 0 for the world's."""
+        self.above: list[int | None] = []
+        """Of each object with a link the one that its link is held to, None of a root and of all others."""
         for entry in self.objects:
             self._add(entry)
 
@@ -72,12 +76,24 @@ class _Reading:
         self.poses.append(pose)
         self.scales.append(scale)
         self.active.append(active)
-        body = next((c for c in entry.get("components", ()) if c["type"] == "Rigidbody"), None)
+        body = next((c for c in entry.get("components", ()) if c["type"] in ("Rigidbody", LINK)), None)
+        above = None
         if body is not None and active:
+            if body["type"] == LINK:
+                above = self._link_above(parent)
             node = len(self.nodes)
-            held = bool(body.get("isKinematic", False))
+            held = bool(body.get("isKinematic", False) or (body.get("immovable", False) and above is None))
             self.nodes.append(Node(entry["id"], entry["name"], pose=pose, grounded=held))
         self.node_of.append(node)
+        self.above.append(above)
+
+    def _link_above(self, index: int | None) -> int | None:
+        """The nearest object with a link, from one upwards."""
+        while index is not None and not any(
+            c["type"] == LINK for c in self.objects[index].get("components", ())
+        ):
+            index = self.objects[index].get("parent")
+        return index
 
     def anchor(self, which: int | None, local: Array) -> Array:
         """An anchor of an object (None: the world) in the world."""
@@ -88,7 +104,7 @@ class _Reading:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Restored:
-    """scene: the Rigidbodies as parts, with joints and couplings; right-handed, SI, radians.
+    """scene: the Rigidbodies and links as parts, with joints and couplings; right-handed, SI, radians.
 
     node_of: for each GameObject the node that it moves with.  poses: of the GameObjects, scales their sizes, WORLD.
     joints: the joint of each component, by (GameObject, component).
@@ -115,7 +131,10 @@ def restored(document: Entry) -> Restored:
     place: dict[tuple[int, int], Joint] = {}
     for index, entry in enumerate(reading.objects):
         components: Sequence[Entry] = entry.get("components", ())
-        own = [i for i, c in enumerate(components) if c["type"].endswith("Joint")]
+        held = reading.above[index] is not None
+        own = [
+            i for i, c in enumerate(components) if c["type"].endswith("Joint") or (held and c["type"] == LINK)
+        ]
         for i in own:
             if not reading.active[index] or reading.node_of[index] == 0:
                 continue
@@ -133,7 +152,23 @@ def restored(document: Entry) -> Restored:
     return Restored(scene, reading.node_of, reading.poses, reading.scales, place)
 
 
+def _link_joint(name: str, link: Entry, index: int, reading: _Reading) -> Joint:
+    """Between a link and the one above it; both its frames are the one at the link's anchor."""
+    above = reading.above[index]
+    assert above is not None
+    a, b = reading.node_of[above], reading.node_of[index]
+    at = reading.anchor(index, _vector(link, "anchorPosition", (0, 0, 0)))
+    world = Pose(reading.poses[index].rotation @ link_basis(link), at)
+    frame_a, frame_b = (reading.nodes[node].pose.inverse() @ world for node in (a, b))
+    freedoms = link_freedoms(link)
+    because = tuple(str(source) for source in link.get("because", ()))
+    own = str(link.get("extras", {}).get("name", ""))
+    return Joint(name, kind_of(unlocked_of(freedoms)), a, b, frame_a, frame_b, freedoms, own, because=because)
+
+
 def _joint(name: str, component: Entry, index: int, reading: _Reading) -> Joint:
+    if component["type"] == LINK:
+        return _link_joint(name, component, index, reading)
     connected: int | None = component.get("connectedBody")
     extras: Entry = component.get("extras", {})
     if connected is not None and (not reading.active[connected] or reading.node_of[connected] == 0):
@@ -172,8 +207,17 @@ def _joint(name: str, component: Entry, index: int, reading: _Reading) -> Joint:
         reading.nodes[node].pose.inverse() @ Pose(world, at) for node, at in ((a, at_a), (b, at_b))
     )
     because = tuple(str(source) for source in component.get("because", ()))
-    own = str(extras.get("name", ""))
-    return Joint(name, kind, a, b, frame_a, frame_b, freedoms, own, because=because)
+    own = str(component.get("name") or extras.get("name", ""))
+    force, torque = breaks(component)
+    return Joint(
+        name, kind, a, b, frame_a, frame_b, freedoms, own,
+        break_force=force,
+        break_torque=torque,
+        collide=bool(component.get("enableCollision", False)),
+        closes=bool(component.get("closure", False)),
+        slerp=slerp_of(component),
+        because=because,
+    )  # fmt: skip
 
 
 def _hinge_freedoms(component: Entry) -> tuple[Freedom, ...]:
@@ -182,7 +226,7 @@ def _hinge_freedoms(component: Entry) -> tuple[Freedom, ...]:
     if component.get("useLimits", False):
         low, high = math.radians(limits.get("min", 0.0)), math.radians(limits.get("max", 0.0))
         turn = Freedom(Motion.LIMITED, min(low, high), max(low, high))
-    return freedoms_of(JointKind.REVOLUTE, rx=turn)
+    return freedoms_of(JointKind.REVOLUTE, rx=hinge_turn(component, turn))
 
 
 def _freedoms(component: Entry) -> tuple[Freedom, ...]:
@@ -193,7 +237,7 @@ def _freedoms(component: Entry) -> tuple[Freedom, ...]:
     for i, field in enumerate(MOTION_FIELDS):
         motion = _WORDS[component.get(field, "Free")]
         found.append(_limited(component, i) if motion is Motion.LIMITED else Freedom(motion))
-    return tuple(found)
+    return driven(component, tuple(found))
 
 
 def _limited(component: Entry, i: int) -> Freedom:
@@ -230,6 +274,8 @@ def _reading_of(end: Entry, joint: Joint, reading: _Reading, scene: Scene) -> tu
     if component["type"] == "HingeJoint":
         return 1.0, 0.0, RX
     freedom = _COORDINATES.index(end["coordinate"])
+    if component["type"] == LINK:
+        return 1.0, 0.0, freedom
     senses = frames.Senses.of(b_in_a=joint.b == reading.node_of[owner])
     if freedom >= RX:
         return senses.angular[freedom - RX], 0.0, freedom

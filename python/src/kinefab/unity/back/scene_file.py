@@ -6,19 +6,29 @@ import errno
 import hashlib
 import json
 import math
+import re
 from collections.abc import Generator, Mapping
 from contextlib import contextmanager
 from pathlib import Path
 from typing import Any, cast
 
 from ...diagnostics import KinefabError, Report, diagnostic
+from ..container import Damaged, chunks_of, is_container
+
+
+_HALF = re.compile(rb"\\u[dD][89a-fA-F]")
 
 
 def read_scene_file(path: Path) -> Mapping[str, Any]:
     """The JSON of a scene.  Raises KinefabError when it is missing, broken, of another major version, or when an index
     in it leads nowhere: Python would count a negative one from the list's end."""
     try:
-        content: Any = json.loads(_content(Path(path)), parse_float=_number, parse_constant=_number)
+        text = _content(Path(path))
+        if is_container(text):
+            text = bytes(chunks_of(text)[0])
+        content: Any = json.loads(text, parse_float=_number, parse_constant=_number)
+        if _HALF.search(text):  # half of a surrogate pair is no text
+            json.dumps(content, ensure_ascii=False).encode("utf-8")
     except FileNotFoundError:
         raise KinefabError([diagnostic("SOURCE_NOT_FOUND", path=path)]) from None
     except OSError as error:
@@ -80,12 +90,15 @@ def _demand_references(scene: Mapping[str, Any], path: Path) -> None:
 
 
 def read_buffers(path: Path, scene: Mapping[str, Any]) -> list[bytes]:
-    """The bytes of a scene's buffers, in order; they stand beside it.
+    """The bytes of a scene's buffers, in order; they stand beside it, or in it.
 
     Raises KinefabError when one is missing or not the one that the scene was written with.
     """
     buffers: list[bytes] = []
     for entry in scene.get("buffers", []):
+        if "uri" not in entry:
+            buffers.append(_held_buffer(Path(path), entry))
+            continue
         uri = str(entry["uri"])
         try:
             content = _content(Path(path).parent / Path(uri).name)
@@ -97,6 +110,22 @@ def read_buffers(path: Path, scene: Mapping[str, Any]) -> list[bytes]:
             raise _unreadable(path, f"{uri} is another buffer")
         buffers.append(content)
     return buffers
+
+
+def _held_buffer(path: Path, entry: Mapping[str, Any]) -> bytes:
+    """The buffer that stands in the scene's own file.  Raises KinefabError when there is none or another."""
+    try:
+        content = _content(path)
+        held = chunks_of(content)[1] if is_container(content) else None
+    except (OSError, Damaged) as error:
+        raise _unreadable(path, error) from error
+    length: object = entry.get("byteLength")
+    if held is None or type(length) is not int or not 0 <= len(held) - length < 4:
+        raise _unreadable(path, "it holds no buffer of the length that it states")
+    buffer = bytes(held[:length])
+    if hashlib.sha256(buffer).hexdigest() != entry.get("sha256"):
+        raise _unreadable(path, "it holds another buffer")
+    return buffer
 
 
 @contextmanager

@@ -217,7 +217,8 @@ def _common_fields(joint: Joint, found: JointFinding) -> dict[str, Any]:
         "because": tuple(joint.because),
         "closure": found.closure,
         "id": joint.id,
-        "extras": {"name": joint.name, **joint.extras} if joint.name else dict(joint.extras),
+        "name": joint.name,
+        "extras": dict(joint.extras),
     }
 
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Mapping
 from dataclasses import replace
 
 from ...diagnostics import Report
@@ -70,6 +71,30 @@ def _without_idle(joint: Joint, index: int, freedom: Freedom, report: Report) ->
     return freedom if works or not idle else replace(freedom, drive=None)
 
 
+def unkept_bounds(freedom: Freedom) -> dict[str, float]:
+    """What is stated of a largest effort and speed and the freedom's own drive does not keep to, by its word."""
+    passive, drive = freedom.passive or Passive(), freedom.drive
+    effort = math.inf if drive is not None and drive.max_force <= passive.effort else passive.effort
+    most = {"effort": effort, "speed": passive.speed}
+    return {what: value for what, value in most.items() if math.isfinite(value)}
+
+
+def tell_bounds(joint: Joint, index: int, bounds: Mapping[str, float], report: Report) -> None:
+    """Tell that nothing of the scene holds them.  bounds: of the freedom, see ``unkept_bounds``."""
+    limits = " and ".join(f"{what} ({value:g})" for what, value in bounds.items())
+    names = {"joint": joint.id, "freedom": joint.freedom_name(index), "limits": limits}
+    report.dropped(_bounds_feature(joint, index, bounds), "JOINT_EFFORT_DROPPED", joint.where, **names)
+
+
+def withdraw_bounds(joint: Joint, index: int, bounds: Mapping[str, float], report: Report) -> None:
+    """Take back what ``tell_bounds`` told."""
+    report.withdraw(_bounds_feature(joint, index, bounds), "JOINT_EFFORT_DROPPED")
+
+
+def _bounds_feature(joint: Joint, index: int, bounds: Mapping[str, float]) -> str:
+    return feature_of(joint, f"largest {' and '.join(bounds)}", index)
+
+
 def _driven(joint: Joint, index: int, freedom: Freedom, passive: Passive, report: Report) -> Freedom:
     names = {"joint": joint.id, "freedom": joint.freedom_name(index)}
     # The largest speed stays beside the freedom: Unity does not hold it, but a hinge's stops are written for it.
@@ -84,14 +109,8 @@ def _driven(joint: Joint, index: int, freedom: Freedom, passive: Passive, report
             feature = feature_of(joint, what, index)
             report.dropped(feature, code, joint.where, value=f"{value:g}", **names)
     drive = freedom.drive
-    # A drive that keeps within the effort anyway leaves nothing of it to tell.
-    effort = math.inf if drive is not None and drive.max_force <= passive.effort else passive.effort
-    most = {"effort": effort, "speed": passive.speed}
-    stated = {what: value for what, value in most.items() if math.isfinite(value)}
-    if stated:
-        feature = feature_of(joint, f"largest {' and '.join(stated)}", index)
-        limits = " and ".join(f"{what} ({value:g})" for what, value in stated.items())
-        report.dropped(feature, "JOINT_EFFORT_DROPPED", joint.where, limits=limits, **names)
+    if bounds := unkept_bounds(freedom):
+        tell_bounds(joint, index, bounds, report)
     if not (passive.stiffness or passive.damping):
         return bare
     if drive is None:

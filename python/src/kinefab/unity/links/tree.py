@@ -15,7 +15,6 @@ import numpy as np
 from ...diagnostics import Report
 from ...model import Joint as ModelJoint
 from ...spatial import Pose, matrix_from_quaternion, quaternion_from_matrix
-from ..joints.limits import feature_of
 from ..mapping import GROUND_ID
 from ..overlaps import check_overlaps
 from ..scene import (
@@ -35,6 +34,7 @@ from ..scene import (
 )
 from ..scene.joints.joint import AnchoredJoint
 from ..scene.vectors import quaternion4, vector3
+from .bounds import bounded
 from .motions import ARTICULATION, NotArticulated, link_motion, tell_link_losses, twist_range
 from .order import with_parents_first
 
@@ -51,8 +51,10 @@ Edge = tuple[int, int]
 
 
 def articulated(scene: UnityScene, joints: Mapping[str, ModelJoint], report: Report) -> UnityScene:
-    """The scene with links for Rigidbodies; its couplings are those of the links' coordinates.  joints: of the model, by id.  The report
-    gets an error for each joint that no articulation has."""
+    """The scene with links for Rigidbodies, or as it is where it has links; its couplings are those of the links' coordinates.
+    joints: of the model, by id.  The report gets an error for each joint that no articulation has."""
+    if any(isinstance(c, ArticulationBody) for entry in scene.gameObjects for c in entry.components):
+        return scene
     return _Articulation(scene, joints, report).scene_of_links()
 
 
@@ -231,9 +233,10 @@ class _Articulation:
             return link
         if moving["jointType"] == "Revolute" and twist_range(joint) is not None:
             self._tell_range(joint)
-        if moving["jointType"] != "Fixed":
-            moving["jointFriction"] = self._tell_friction(joint)
-        moving["because"], moving["extras"] = joint.because, joint.extras
+        if moving["jointType"] != "Fixed" and (stated := self.joints.get(joint.id)) is not None:
+            moving = bounded(moving, stated, self.report)
+        named = {"name": joint.name} if joint.name else {}
+        moving["because"], moving["extras"] = joint.because, {**named, **joint.extras}
         tell_link_losses(joint, body, self.objects[child].id, self.report)
         return replace(link, **moving, **self._anchors(joint, edge, child, parent))
 
@@ -270,19 +273,6 @@ class _Articulation:
         self.report.withdraw(feature, "JOINT_LIMIT_BEYOND_TURN")
         if all(outcome.feature != feature for outcome in self.report.outcomes):
             self.report.kept(feature, "" if stated is None else stated.where)
-
-    def _tell_friction(self, joint: Joint) -> float:
-        """The link's coefficient.  What was told as lost, as Unity's joints have no friction, is not."""
-        stated = self.joints.get(joint.id)
-        passive = [f.passive.friction for f in stated.freedoms if f.passive is not None] if stated else []
-        most = max(passive, default=0.0)
-        if stated is not None and most > 0.0:
-            feature = f"friction of joint {joint.id}"
-            for freedom in stated.unlocked:
-                self.report.withdraw(feature_of(stated, "friction", freedom), "JOINT_FRICTION_DROPPED")
-            told = {"joint": joint.id, "value": f"{most:g}"}
-            self.report.approximated(feature, "JOINT_FRICTION_COEFFICIENT", stated.where, **told)
-        return most
 
     def _start(self, edge: Edge) -> float:
         """How far a slide stands out at the exported pose, where its anchors meet being zero."""

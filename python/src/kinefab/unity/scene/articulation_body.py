@@ -30,6 +30,7 @@ class ArticulationBody:
 
     jointType: ``Fixed``, ``Prismatic``, ``Revolute`` or ``Spherical``, along and about X of the anchors; locks: ``Locked``, ``Limited``
     or ``Free``.  anchor, parentAnchor: the same frame, seen from the link and from the one above.
+    maxJointVelocity: of each axis, m/s or rad/s; None: PhysX's own 100.
     """
 
     mass: float = 1.0
@@ -48,6 +49,7 @@ class ArticulationBody:
     linearDamping: float = 0.0
     angularDamping: float = 0.05
     jointFriction: float = 0.0
+    maxJointVelocity: float | None = None
     centerOfMass: Vector3 = ZERO
     inertiaTensor: Vector3 = ONE
     inertiaTensorRotation: Quaternion = IDENTITY

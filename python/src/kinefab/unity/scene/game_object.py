@@ -19,7 +19,8 @@ Component = Union[MeshFilter, MeshRenderer, Rigidbody, ArticulationBody, Collide
 @dataclass(frozen=True, slots=True)
 class GameObject:
     """id: stable path in the source, unique; never made from order.  parent: index of an earlier object, or None.
-    layer, tag: the source's words; Unity's own lists are the project's, so targets leave them at default and tell."""
+    layer, tag: the source's words; Unity's own lists are the project's, so targets leave them at default and tell.
+    definition: of the part, shared by its occurrences; "" for none."""
 
     id: str
     name: str
@@ -29,4 +30,5 @@ class GameObject:
     components: tuple[Component, ...] = ()
     layer: str = ""
     tag: str = ""
+    definition: str = ""
     extras: Mapping[str, object] = field(default_factory=dict[str, object])

@@ -9,6 +9,7 @@ import numpy as np
 
 from ...spatial import Array, Pose, rotation_about
 from ...unity import frames
+from ..freedoms import BODIES
 
 Entry = Mapping[str, Any]
 _AXES = {"X": (2, -0.5 * np.pi), "Y": (2, 0.0), "Z": (0, 0.5 * np.pi)}
@@ -46,7 +47,7 @@ def part_entry(
 def _facts(components: Sequence[Entry], meshes: Sequence[Entry]) -> list[tuple[str, str]]:
     facts: list[tuple[str, str]] = []
     for c in components:
-        if c["type"] == "Rigidbody":
+        if c["type"] in BODIES:
             facts.append(("mass", f"{c.get('mass', 1):g} kg"))
             if c.get("isKinematic", False):
                 facts.append(("kinematic", "yes"))

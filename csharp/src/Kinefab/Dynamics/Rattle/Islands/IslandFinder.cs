@@ -5,7 +5,7 @@ using Kinefab.Numerics;
 
 namespace Kinefab.Dynamics.Rattle;
 
-/// <summary>Which bodies hang together: by unbroken joints and couplings; fixed bodies join nothing.</summary>
+/// <summary>Which bodies hang together: by couplings and by unbroken joints that have rows; fixed bodies join nothing.</summary>
 internal static class IslandFinder
 {
     /// <summary>The islands of a mechanism's unbroken joints, by the lowest index of their bodies.</summary>
@@ -16,7 +16,7 @@ internal static class IslandFinder
         var sets = new DisjointSets(bodies.Count);
         foreach (JointModel joint in joints)
         {
-            if (!joint.IsBroken)
+            if (Holds(joint))
             {
                 Unite(joint.Body0, joint.Body1);
             }
@@ -50,7 +50,7 @@ internal static class IslandFinder
         for (int j = 0; j < joints.Length; j++)
         {
             int body = AnyMoving(joints[j]);
-            if (body >= 0 && !joints[j].IsBroken)
+            if (body >= 0 && Holds(joints[j]))
             {
                 members[sets.Find(body)].Add(joints[j], j);
             }
@@ -86,6 +86,8 @@ internal static class IslandFinder
             }
         }
     }
+
+    private static bool Holds(JointModel joint) => !joint.IsBroken && !joint.Layout().IsEmpty;
 
     private static bool IsWhole(CoordinateCoupling coupling) => !coupling.A.Joint.IsBroken && !coupling.B.Joint.IsBroken;
 

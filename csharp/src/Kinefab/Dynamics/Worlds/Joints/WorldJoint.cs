@@ -77,6 +77,8 @@ public abstract class WorldJoint
     private protected Pose Pose1 => MultibodySystem.Bodies.PoseOf(Solved.Body1);
 
     /// <summary>A coordinate of the own body against the connected one, left-hand sense, 0 at start-up; degrees or metres.</summary>
+    /// <param name="coordinate">Which of the joint's six motions.</param>
+    /// <returns>Degrees, over any number of turns, or metres.</returns>
     /// <exception cref="ArgumentException">The joint has no such coordinate.</exception>
     public abstract double Coordinate(Coordinate coordinate);
 

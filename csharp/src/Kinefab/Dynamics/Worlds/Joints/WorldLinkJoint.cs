@@ -66,6 +66,8 @@ public sealed class WorldLinkJoint : WorldJoint
     public override double Coordinate(Coordinate coordinate) => _joint.Coordinate(coordinate);
 
     /// <summary>Rate of a coordinate, degrees/s or m/s.</summary>
+    /// <param name="coordinate">A motion that the joint leaves free.</param>
+    /// <returns>Degrees/s or m/s, left-handed sense.</returns>
     /// <exception cref="ArgumentException">The joint has no such coordinate.</exception>
     public double Speed(Coordinate coordinate)
     {
@@ -102,6 +104,8 @@ public sealed class WorldLinkJoint : WorldJoint
     }
 
     /// <summary>A force along a coordinate over the next step, N or N m; its reaction acts on the link above.</summary>
+    /// <param name="coordinate">A motion that the joint leaves free.</param>
+    /// <param name="force">N along a slide, N m about an axis; in the sense of the coordinate.</param>
     /// <exception cref="ArgumentException">The joint has no such coordinate, or the force is no finite number.</exception>
     public void AddForce(Coordinate coordinate, double force)
     {

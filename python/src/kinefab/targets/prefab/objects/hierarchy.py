@@ -10,6 +10,7 @@ from ....unity.scene import (
     ArticulationBody,
     Collider,
     Component,
+    Coupling,
     FixedJoint,
     Joint,
     MeshCollider,
@@ -160,11 +161,11 @@ class Hierarchy:
                 if (i, k) not in self.left_out:
                     held.append((self.component_ids[i, k], component))
 
-    def add_couplings(self) -> None:
+    def add_couplings(self, couplings: Sequence[Coupling]) -> None:
         """The script's components, each on the object whose joint follows."""
-        for coupling in self.scene.couplings:
+        for coupling in couplings:
             index = coupling.coordinate.gameObject
-            fields = coupling_fields(coupling, self.game_object_id(index), self.component_ids)
+            fields = coupling_fields(coupling, self.game_object_id(index), self.component_ids, self.scene)
             own = self.ids.new("MonoBehaviour", f"coupling {lasting(coupling.id, self._given)}")
             self.add(index, 114, "MonoBehaviour", own, fields)
 

@@ -8,8 +8,9 @@ namespace Kinefab
     /// Keeps a joint coordinate at a linear function of others: gears, belts, racks, screws, mimics.
     /// q = sum of ratio * q_term + offset, in degrees and metres, each q the motion of the joint's own body against its
     /// connected one, zero at the pose of the prefab. Works one way: the driven joint follows, its load is not passed on.
-    /// A kinematic body is moved to its place; any other is driven there by its joint's spring, which is the joint's own again
-    /// while the component is disabled.
+    /// A kinematic body is moved to its place; any other is driven there by its joint's spring, or by its link's X drive, which
+    /// is the joint's own again while the component is disabled. Links are those of articulations, revolute or prismatic: their one
+    /// coordinate is read whatever stands beside them.
     /// </summary>
     public sealed class KinefabCoupling : MonoBehaviour
     {
@@ -28,11 +29,19 @@ namespace Kinefab
         public struct Term
         {
             public Joint joint;
+
+            /// <summary>Where the term is a link's coordinate and no joint's.</summary>
+            public ArticulationBody articulationBody;
             public Coordinate coordinate;
             public float ratio;
+
+            internal bool IsThere => joint != null || articulationBody != null;
         }
 
         public Joint driven;
+
+        /// <summary>Where a link is driven and no joint.</summary>
+        public ArticulationBody drivenArticulationBody;
         public Coordinate drivenCoordinate;
         public Term[] terms = new Term[0];
         public float offset;
@@ -60,9 +69,9 @@ namespace Kinefab
 
         private void OnEnable()
         {
-            if (_isReady && driven != null)
+            if (_isReady && IsThere)
             {
-                _release = _release ?? Release(driven);
+                _release = _release ?? (driven != null ? Release(driven) : Release(drivenArticulationBody));
             }
         }
 
@@ -76,21 +85,23 @@ namespace Kinefab
         {
             _halves = default(Vec);
             _target = double.NaN;
-            if (_isReady && driven != null)
+            if (_isReady && IsThere)
             {
                 _release();
             }
         }
 
+        private bool IsThere => driven != null || drivenArticulationBody != null;
+
         private void Prepare()
         {
-            if (_isReady || driven == null || !Array.TrueForAll(terms, t => t.joint != null))
+            if (_isReady || !IsThere || !Array.TrueForAll(terms, t => t.IsThere))
             {
                 return;
             }
 
-            _driven = new Reading(driven, drivenCoordinate);
-            _terms = Array.ConvertAll(terms, t => new Reading(t.joint, t.coordinate));
+            _driven = new Reading(driven, drivenArticulationBody, drivenCoordinate);
+            _terms = Array.ConvertAll(terms, t => new Reading(t.joint, t.articulationBody, t.coordinate));
             _isReady = true;
         }
 
@@ -101,7 +112,7 @@ namespace Kinefab
                 return;
             }
 
-            if (driven == null || !Array.TrueForAll(terms, t => t.joint != null))
+            if (!IsThere || !Array.TrueForAll(terms, t => t.IsThere))
             {
                 OnDisable(); // a joint has broken: what follows it is free
                 _isReady = false;
@@ -114,10 +125,22 @@ namespace Kinefab
             {
                 double value = _terms[i].Value();
                 target += terms[i].ratio * value;
-                if (terms[i].joint == driven && Math.Abs(terms[i].coordinate - drivenCoordinate) == Coordinate.AngularX - Coordinate.X)
+                if (driven != null && terms[i].joint == driven && Math.Abs(terms[i].coordinate - drivenCoordinate) == Coordinate.AngularX - Coordinate.X)
                 {
                     beside = value; // a screw, whose turn its slide follows
                 }
+            }
+
+            if (driven == null)
+            {
+                if (target != _target)
+                {
+                    drivenArticulationBody.WakeUp();
+                    _target = target;
+                }
+
+                Drive(drivenArticulationBody, _driven.InPosition(target));
+                return;
             }
 
             var body = driven.gameObject.GetComponent<Rigidbody>();
@@ -155,9 +178,9 @@ namespace Kinefab
 
             for (int i = 0; i < terms.Length; i++)
             {
-                if (_terms[i] == null || !_terms[i].Reads(terms[i].joint, terms[i].coordinate))
+                if (_terms[i] == null || !_terms[i].Reads(terms[i].joint, terms[i].articulationBody, terms[i].coordinate))
                 {
-                    _terms[i] = new Reading(terms[i].joint, terms[i].coordinate);
+                    _terms[i] = new Reading(terms[i].joint, terms[i].articulationBody, terms[i].coordinate);
                 }
             }
         }
@@ -203,6 +226,47 @@ namespace Kinefab
                 own.angularXDrive = twist;
                 own.angularYZDrive = swing;
             };
+        }
+
+        /// <summary>Gives a link back the drive that it has now, within the limits that it has then.</summary>
+        private static Action Release(ArticulationBody link)
+        {
+            ArticulationDrive own = link.xDrive;
+            return () =>
+            {
+                ArticulationDrive drive = link.xDrive;
+                own.lowerLimit = drive.lowerLimit;
+                own.upperLimit = drive.upperLimit;
+                link.xDrive = own;
+            };
+        }
+
+        private void Drive(ArticulationBody link, double target)
+        {
+            ArticulationDrive drive = link.xDrive;
+#if UNITY_2022_2_OR_NEWER
+            bool isOurs = drive.driveType == ArticulationDriveType.Acceleration;
+#else
+            bool isOurs = true;
+#endif
+            if (!isOurs || drive.stiffness != stiffness || drive.damping != damping || drive.targetVelocity != 0 || drive.forceLimit != float.MaxValue)
+            {
+                drive.stiffness = stiffness;
+                drive.damping = damping;
+                drive.targetVelocity = 0;
+                drive.forceLimit = float.MaxValue;
+#if UNITY_2022_2_OR_NEWER
+                drive.driveType = ArticulationDriveType.Acceleration;
+#endif
+                link.xDrive = drive;
+            }
+
+#if UNITY_2022_2_OR_NEWER
+            link.SetDriveTarget(ArticulationDriveAxis.X, (float)target);
+#else
+            drive.target = (float)target;
+            link.xDrive = drive;
+#endif
         }
 
         private void Drive(HingeJoint hinge, double target)
@@ -282,11 +346,12 @@ namespace Kinefab
             return new Quaternion((float)(sines.X / length), (float)(sines.Y / length), (float)(sines.Z / length), (float)(a * b * c / length));
         }
 
-        /// <summary>One coordinate of a joint: where it stands, and where its body would stand at another value.</summary>
+        /// <summary>One coordinate of a joint or a link: where it stands, and where a joint's body would stand at another value.</summary>
         [Serializable]
         private sealed class Reading
         {
             private Joint _joint;
+            private ArticulationBody _link;
             private Coordinate _coordinate;
             private bool _isAngle;
             private Vec _axis;
@@ -296,10 +361,17 @@ namespace Kinefab
             private double _zero;
             private double _last;
 
-            public Reading(Joint joint, Coordinate coordinate)
+            public Reading(Joint joint, ArticulationBody link, Coordinate coordinate)
             {
                 _joint = joint;
+                _link = link;
                 _coordinate = coordinate;
+                if (joint == null)
+                {
+                    _isAngle = link.jointType != ArticulationJointType.PrismaticJoint;
+                    return; // a link counts from the pose of the prefab by itself
+                }
+
                 _isAngle = coordinate == Coordinate.Angle || coordinate >= Coordinate.AngularX;
                 _axis = Axis(joint, coordinate == Coordinate.Angle ? 0 : ((int)coordinate - 1) % 3);
                 _anchor = new Vec(joint.anchor);
@@ -312,11 +384,20 @@ namespace Kinefab
             /// <summary>Metres by which the anchors stood apart at the start: there a slide is at zero, as an angle is.</summary>
             public double Zero => _zero;
 
-            public bool Reads(Joint joint, Coordinate coordinate) => _joint == joint && _coordinate == coordinate;
+            public bool Reads(Joint joint, ArticulationBody link, Coordinate coordinate) => _joint == joint && _link == link && _coordinate == coordinate;
+
+            /// <summary>A value as the link's own position has it, which is known within two turns.</summary>
+            public double InPosition(double value) => value + Position() - Value();
 
             /// <summary>Degrees, over whole turns, or metres.</summary>
             public double Value()
             {
+                if (_joint == null)
+                {
+                    double position = Position();
+                    return _last = _isAngle ? position + 360 * Math.Round((_last - position) / 360) : position;
+                }
+
                 Pose(out Quat connected, out Vec connectedAt, out Quat own, out Vec ownAt);
                 if (!_isAngle)
                 {
@@ -341,6 +422,12 @@ namespace Kinefab
                 Vec at = anchor - own * _anchor;
                 position = new Vector3((float)at.X, (float)at.Y, (float)at.Z);
                 rotation = new Quaternion((float)own.V.X, (float)own.V.Y, (float)own.V.Z, (float)own.W);
+            }
+
+            private double Position()
+            {
+                ArticulationReducedSpace at = _link.jointPosition;
+                return at.dofCount == 0 ? 0 : at[0] * (_isAngle ? 180 / Math.PI : 1); // none yet while the link is made, nor while it is disabled
             }
 
             private double Apart(Quat connected, Vec connectedAt, Quat own, Vec ownAt)

@@ -46,6 +46,41 @@ def assembly_meta(guid: str) -> str:
     return _meta(guid, "AssemblyDefinitionImporter", {**_HEAD, **_TAIL})
 
 
+def simple_meta(guid: str, importer: str) -> str:
+    """Of an importer that has no settings."""
+    return _meta(guid, importer, {**_HEAD, **_TAIL})
+
+
+def plugin_meta(guid: str) -> str:
+    """Of a managed library for every platform, seen only by assemblies that name it."""
+    fields: Fields = {
+        **_HEAD,
+        "serializedVersion": 2,
+        "iconMap": Plain("{}"),
+        "executionOrder": Plain("{}"),
+        "defineConstraints": [],
+        "isPreloaded": 0,
+        "isOverridable": 0,
+        "isExplicitlyReferenced": 1,
+        "validateReferences": 1,
+        "platformData": [
+            {"first": {"Any": ""}, "second": {"enabled": 1, "settings": Plain("{}")}},
+            {
+                "first": {"Editor": "Editor"},
+                "second": {"enabled": 0, "settings": {"DefaultValueInitialized": "true"}},
+            },
+        ],
+    }
+    return _meta(guid, "PluginImporter", {**fields, **_TAIL})
+
+
+def scripted_meta(guid: str, importer: str) -> str:
+    """Of a file that a ScriptedImporter reads, with its settings as the script has them.  importer: the script's guid."""
+    fields: Fields = {"internalIDToNameTable": [], **_HEAD, "serializedVersion": 2, **_TAIL}
+    script = Plain(f"{{fileID: 11500000, guid: {importer}, type: 3}}")
+    return _meta(guid, "ScriptedImporter", {**fields, "script": script})
+
+
 LARGEST_TEXTURE = 16384
 """Pixels of a side: Unity's own most, so that no image is made smaller when it is imported."""
 

@@ -17,7 +17,7 @@ class Joint:
     connectedBody: index of the GameObject of the other body, None for the world.
     breakForce, breakTorque: newtons, newton metres; infinite: unbreakable.
     because: ids of the source's constraints or joints that it comes from.  closure: it closes a loop.
-    exact: it moves just as the source's.  id: of the joint in the source, "" for one that holds a rigid group together.
+    exact: it moves just as the source's.  id: of the joint in the source, "" for one that holds a rigid group together.  name: the user's own.
     """
 
     connectedBody: int | None = None
@@ -31,6 +31,7 @@ class Joint:
     closure: bool = False
     exact: bool = True
     id: str = ""
+    name: str = ""
     extras: Mapping[str, object] = field(default_factory=dict[str, object])
 
 

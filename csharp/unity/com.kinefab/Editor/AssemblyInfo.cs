@@ -1,0 +1,4 @@
+using System.Runtime.CompilerServices;
+
+[assembly: InternalsVisibleTo("Kinefab.Unity.Editor.Tests")]
+[assembly: InternalsVisibleTo("Kinefab.Tests")]

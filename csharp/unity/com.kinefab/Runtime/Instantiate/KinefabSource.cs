@@ -1,0 +1,98 @@
+using System.Collections.Generic;
+using Kinefab.Diagnostics;
+using Kinefab.Validation;
+using UnityEngine;
+using Doc = Kinefab.Document;
+
+namespace KinefabUnity
+{
+    /// <summary>What a mechanism was made of: the text of its file, without the numbers of meshes, and what was found about it.</summary>
+    public sealed class KinefabSource : ScriptableObject
+    {
+        [SerializeField, HideInInspector]
+        private byte[] text = new byte[0];
+
+        [SerializeField]
+        private KinefabFinding[] findings = new KinefabFinding[0];
+
+        /// <summary>What was found when it was made: of the file, and what it lost on its way out of CAD.</summary>
+        public IReadOnlyList<KinefabFinding> Findings => findings;
+
+        /// <summary>Sets the project to what the mechanism was made for: gravity, time step, solver. A prefab cannot.</summary>
+        public void ApplyProjectSettings()
+        {
+            Doc.Physics from = Load().Document.Physics;
+            Physics.gravity = Numbers.Vector(from.Gravity);
+            Physics.bounceThreshold = (float)from.BounceThreshold;
+            Physics.defaultSolverIterations = from.SolverIterations;
+            Physics.defaultSolverVelocityIterations = from.SolverVelocityIterations;
+            Physics.defaultMaxAngularSpeed = (float)from.DefaultMaxAngularSpeed;
+            Time.fixedDeltaTime = (float)from.FixedTimestep;
+        }
+
+        internal static KinefabSource Of(byte[] text)
+        {
+            KinefabSource source = CreateInstance<KinefabSource>();
+            source.name = "Source";
+            source.text = WithoutBuffers(text);
+            return source;
+        }
+
+        // A file that holds its buffers (SPEC, section 1) begins with a head of 12 bytes, then comes the text with its length before it.
+        private static byte[] WithoutBuffers(byte[] file)
+        {
+            const int Head = 12, ChunkHead = 8;
+            if (file.Length < Head + ChunkHead || System.Text.Encoding.ASCII.GetString(file, 0, 4) != "KFAB")
+            {
+                return file;
+            }
+
+            int length = System.BitConverter.ToInt32(file, Head);
+            bool isWhole = length >= 0 && length <= file.Length - Head - ChunkHead;
+            return isWhole ? new System.ArraySegment<byte>(file, Head + ChunkHead, length).ToArray() : file;
+        }
+
+        internal void Tell(List<KinefabFinding> found) => findings = found.ToArray();
+
+        /// <summary>The scene without looks; objects and components stand where the file has them.</summary>
+        /// <exception cref="SceneFormatException">The text is none of a scene.</exception>
+        internal ValidScene Load()
+        {
+            Doc.SceneReading reading = Doc.SceneFile.Parse(text);
+            if (reading.Document == null)
+            {
+                throw new SceneFormatException(reading.Report);
+            }
+
+            SceneValidation validation = SceneValidator.Validate(Bare(reading.Document));
+            return validation.Scene ?? throw new SceneFormatException(validation.Report);
+        }
+
+        private static Doc.SceneDocument Bare(Doc.SceneDocument document)
+        {
+            var objects = new List<Doc.GameObject>(document.GameObjects.Count);
+            foreach (Doc.GameObject entry in document.GameObjects)
+            {
+                var components = new List<Doc.Component>(entry.Components.Count);
+                foreach (Doc.Component component in entry.Components)
+                {
+                    bool isLook = component is Doc.MeshFilter || component is Doc.MeshRenderer || component is Doc.MeshCollider;
+
+                    // Something harmless keeps its place: couplings refer to joints by theirs.
+                    components.Add(isLook ? new Doc.BoxCollider { IsTrigger = true } : component);
+                }
+
+                objects.Add(entry with { Components = components });
+            }
+
+            return document with
+            {
+                Buffers = new Doc.SceneBuffer[0],
+                Meshes = new Doc.Mesh[0],
+                Materials = new Doc.Material[0],
+                Animations = new Doc.AnimationClip[0],
+                GameObjects = objects,
+            };
+        }
+    }
+}

@@ -1,0 +1,364 @@
+using System;
+using System.Collections.Generic;
+using Kinefab.Validation;
+using UnityEngine;
+using Doc = Kinefab.Document;
+
+namespace KinefabUnity
+{
+    /// <summary>
+    /// Makes Unity's objects of a scene: hierarchy, bodies, joints, colliders, meshes, materials and clips. The numbers go over as they
+    /// are, since the file is in Unity's frame and units already.
+    /// </summary>
+    internal sealed class SceneBuilder
+    {
+        private readonly ValidScene scene;
+        private readonly Doc.SceneDocument document;
+        private readonly KinefabSettings settings;
+        private readonly List<KinefabFinding> findings;
+        private readonly string[] names;
+        private readonly List<AnimationClip> clips = new List<AnimationClip>();
+        private GameObject root;
+        private Placement placement;
+
+        /// <param name="scene">What is made.</param>
+        /// <param name="settings">How.</param>
+        /// <param name="findings">Gets what Unity or this project has no place for.</param>
+        /// <param name="replaced">See <see cref="Looks"/>; null: nothing is.</param>
+        internal SceneBuilder(ValidScene scene, KinefabSettings settings, List<KinefabFinding> findings, Func<int, Material> replaced = null)
+        {
+            this.scene = scene;
+            this.settings = settings;
+            this.findings = findings;
+            document = scene.Document;
+            Looks = new Looks(scene, settings, new Surfaces(settings.material, findings), replaced);
+            Objects = new GameObject[document.GameObjects.Count];
+            names = ObjectNames.Of(
+                List(o => o.Parent ?? -1),
+                List(o => o.Name),
+                List(o => o.Id));
+        }
+
+        /// <summary>In the order of the file, so that its indices hold.</summary>
+        internal GameObject[] Objects { get; }
+
+        /// <summary>What they show.</summary>
+        internal Looks Looks { get; }
+
+        /// <summary>In the order of the file.</summary>
+        internal IReadOnlyList<AnimationClip> AnimationClips => clips;
+
+        /// <summary>Called with the share of the work that is done, 0 to 1 and rising; null: nobody is.</summary>
+        internal Action<float> Progress { get; set; }
+
+        /// <summary>
+        /// Makes everything; nothing of it is left where that fails. The object returned is the file's only root, or one above its roots: where they are several, where the root
+        /// does not stand at the origin, as the user places the mechanism by it, or where it moves.
+        /// </summary>
+        /// <param name="name">Of an object above the file's roots.</param>
+        /// <param name="parent">Where it goes; null: nowhere.</param>
+        internal GameObject Build(string name, Transform parent)
+        {
+            try
+            {
+                Make(name, parent);
+                return root;
+            }
+            catch
+            {
+                Clear();
+                throw;
+            }
+        }
+
+        /// <summary>Removes all that was made.</summary>
+        internal void Clear()
+        {
+            // Objects that have not found their parent yet, too.
+            foreach (GameObject made in Objects)
+            {
+                UnityEngine.Object.DestroyImmediate(made);
+            }
+
+            UnityEngine.Object.DestroyImmediate(root);
+            foreach (Mesh mesh in Looks.Meshes)
+            {
+                UnityEngine.Object.DestroyImmediate(mesh);
+            }
+
+            foreach (Material material in Looks.Materials)
+            {
+                UnityEngine.Object.DestroyImmediate(material);
+            }
+
+            foreach (AnimationClip clip in clips)
+            {
+                UnityEngine.Object.DestroyImmediate(clip);
+            }
+        }
+
+        private void Make(string name, Transform parent)
+        {
+            bool hasOwnRoot = NeedsRoot();
+            if (hasOwnRoot)
+            {
+                root = new GameObject(name);
+            }
+
+            // Every pose comes before any body: PhysX takes a body's pose when the body is made. And nothing acts before all is there.
+            for (int i = 0; i < Objects.Length; i++)
+            {
+                Doc.GameObject from = document.GameObjects[i];
+                Objects[i] = new GameObject(names[i]);
+                root = root != null ? root : Objects[i];
+                root.SetActive(false);
+                Transform above = from.Parent is int index ? Objects[index].transform : hasOwnRoot ? root.transform : null;
+                Place(Objects[i].transform, above, from.Transform);
+            }
+
+            if (root == null)
+            {
+                root = new GameObject(name);
+                root.SetActive(false);
+            }
+
+            root.transform.SetParent(parent, worldPositionStays: false);
+            placement = new Placement(parent, findings);
+            if (settings.physics != KinefabPhysics.None)
+            {
+                Bodies();
+            }
+
+            Components();
+            Ground();
+            Animate();
+            for (int i = 0; i < Objects.Length; i++)
+            {
+                if (Objects[i] != root)
+                {
+                    Objects[i].SetActive(document.GameObjects[i].Active);
+                }
+            }
+
+            // Last, when all joints know their bodies.
+            root.SetActive(hasOwnRoot || Objects.Length == 0 || document.GameObjects[0].Active);
+        }
+
+        private bool NeedsRoot()
+        {
+            int roots = 0;
+            foreach (Doc.GameObject from in document.GameObjects)
+            {
+                roots += from.Parent == null ? 1 : 0;
+            }
+
+            if (roots != 1)
+            {
+                return true;
+            }
+
+            Doc.GameObject first = document.GameObjects[0];
+            bool moves = scene.Body(0) is Doc.Rigidbody body && !body.IsKinematic;
+            return moves || first.Transform != Doc.Transform.Default;
+        }
+
+        private static void Place(Transform to, Transform parent, Doc.Transform from)
+        {
+            to.SetParent(parent, worldPositionStays: false);
+            to.localPosition = Numbers.Vector(from.LocalPosition);
+            to.localRotation = Numbers.Rotation(from.LocalRotation);
+            to.localScale = Numbers.Vector(from.LocalScale);
+        }
+
+        // Every body comes before any joint: a joint's connected body may stand further down.
+        private void Bodies()
+        {
+            for (int i = 0; i < Objects.Length; i++)
+            {
+                foreach (Doc.Component component in document.GameObjects[i].Components)
+                {
+                    if (component is Doc.Rigidbody body)
+                    {
+                        BodyFields.Set(Objects[i].AddComponent<Rigidbody>(), body, document.Physics, placement);
+                    }
+                    else if (component is Doc.ArticulationBody link)
+                    {
+                        BodyFields.Set(Objects[i].AddComponent<ArticulationBody>(), link, document.Physics, placement, scene.IsRootLink(i));
+                    }
+                }
+            }
+        }
+
+        private void Components()
+        {
+            const int Told = 256;
+            var joints = new JointFields(Objects, placement, findings);
+            for (int i = 0; i < Objects.Length; i++)
+            {
+                foreach (Doc.Component component in document.GameObjects[i].Components)
+                {
+                    Add(component, Objects[i], document.GameObjects[i].Id, joints);
+                }
+
+                if (i % Told == 0)
+                {
+                    Progress?.Invoke((float)i / Objects.Length);
+                }
+            }
+
+            Progress?.Invoke(1);
+        }
+
+        private void Add(Doc.Component component, GameObject to, string id, JointFields joints)
+        {
+            switch (component)
+            {
+                case Doc.MeshFilter filter:
+                    to.AddComponent<MeshFilter>().sharedMesh = Looks.Mesh(filter.Mesh);
+                    break;
+                case Doc.MeshRenderer renderer:
+                    Set(to.AddComponent<MeshRenderer>(), renderer);
+                    break;
+                case Doc.Collider collider when !settings.colliders:
+                    break;
+                case Doc.Collider collider when ColliderFields.IsEmpty(collider):
+                    findings.Add(KinefabFinding.Of("COLLIDER_EMPTY", id, ("object", id)));
+                    break;
+                case Doc.Collider collider:
+                    ColliderFields.Add(collider, to, Looks);
+                    break;
+                case Doc.Joint _ when settings.physics == KinefabPhysics.None:
+                    break;
+                case Doc.HingeJoint hinge:
+                    joints.Set(to.AddComponent<HingeJoint>(), hinge);
+                    break;
+                case Doc.ConfigurableJoint configurable:
+                    joints.Set(to.AddComponent<ConfigurableJoint>(), configurable);
+                    break;
+                case Doc.FixedJoint rigid:
+                    joints.Set(to.AddComponent<FixedJoint>(), rigid);
+                    break;
+            }
+        }
+
+        private void Set(MeshRenderer to, Doc.MeshRenderer from)
+        {
+            var materials = new Material[from.Materials.Count];
+            for (int i = 0; i < materials.Length; i++)
+            {
+                materials[i] = Looks.Material(from.Materials[i]);
+            }
+
+            to.sharedMaterials = materials;
+            to.enabled = from.Enabled;
+        }
+
+        private void Ground()
+        {
+            if (string.IsNullOrEmpty(settings.ground))
+            {
+                return;
+            }
+
+            bool isFound = false;
+            for (int i = 0; i < Objects.Length; i++)
+            {
+                if (document.GameObjects[i].Id == settings.ground || names[i] == settings.ground)
+                {
+                    isFound = true;
+                    if (Objects[i].GetComponent<Rigidbody>() is Rigidbody body && body != null)
+                    {
+                        body.isKinematic = true;
+                    }
+                    else if (Objects[i].GetComponent<ArticulationBody>() is ArticulationBody link && link != null && scene.IsRootLink(i))
+                    {
+                        link.immovable = true;
+                    }
+                }
+            }
+
+            if (!isFound)
+            {
+                findings.Add(KinefabFinding.Of("UNITY_GROUND_UNKNOWN", "", ("ground", settings.ground)));
+            }
+        }
+
+        private void Animate()
+        {
+            if (document.Animations.Count == 0)
+            {
+                return;
+            }
+
+            // Of several of one name the first in the file keeps it.
+            var plain = new string[document.Animations.Count];
+            var order = new string[plain.Length];
+            for (int i = 0; i < plain.Length; i++)
+            {
+                plain[i] = ObjectNames.Plain(document.Animations[i].Name);
+                order[i] = i.ToString("D9", System.Globalization.CultureInfo.InvariantCulture);
+            }
+
+            string[] told = ObjectNames.Unique(plain, order);
+            var animation = root.AddComponent<Animation>();
+            for (int i = 0; i < told.Length; i++)
+            {
+                clips.Add(Clips.Make(document.Animations[i], told[i], Path));
+                animation.AddClip(clips[i], told[i]);
+            }
+
+            animation.clip = clips[0];
+
+            // What the solver moves too no clip moves unasked.
+            animation.playAutomatically = !MovedByForces();
+#if UNITY_2023_1_OR_NEWER
+            animation.updateMode = AnimationUpdateMode.Fixed;
+#else
+            animation.animatePhysics = true;
+#endif
+        }
+
+        private string Path(int index)
+        {
+            string path = "";
+            for (Transform at = Objects[index].transform; at != root.transform; at = at.parent)
+            {
+                path = path.Length == 0 ? at.name : $"{at.name}/{path}";
+            }
+
+            return path;
+        }
+
+        private bool MovedByForces()
+        {
+            if (settings.physics == KinefabPhysics.None)
+            {
+                return false;
+            }
+
+            foreach (Doc.AnimationClip clip in document.Animations)
+            {
+                foreach (Doc.AnimationTrack track in clip.Tracks)
+                {
+                    if (scene.BodyOf(track.GameObject) is int body && !scene.Body(body).IsKinematic)
+                    {
+                        return true;
+                    }
+                }
+            }
+
+            return false;
+        }
+
+        private T[] List<T>(Func<Doc.GameObject, T> of)
+        {
+            var found = new T[document.GameObjects.Count];
+            for (int i = 0; i < found.Length; i++)
+            {
+                found[i] = of(document.GameObjects[i]);
+            }
+
+            return found;
+        }
+    }
+}

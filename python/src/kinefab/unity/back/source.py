@@ -1,0 +1,364 @@
+"""A written scene as a source: its objects as nodes, its joints as the model's, and beside them the scene as it was written.
+
+A target in Unity's terms writes the latter, so that nothing is found anew that was found when the scene was made; a target in
+the model's own terms gets the nodes.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, field, replace
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from ...diagnostics import FeatureOutcome, Outcome, Report, Severity
+from ...model import (
+    AnimationClip,
+    Apart,
+    Body,
+    Dynamics,
+    Joint,
+    MassProperties,
+    Node,
+    NodeKind,
+    Physics,
+    Repeat,
+    Scene,
+    Site,
+    Source,
+    Surface,
+    Track,
+)
+from ...model import Mesh as ModelMesh
+from ...options import Closures, ExportOptions, Ground
+from ...spatial import Pose, matrix_from_quaternion
+from .. import frames
+from ..assets.clips import WRAP
+from ..mapping import GROUND_ID
+from ..scene import ArticulationBody, Collider, GameObject, Material, Mesh, MeshFilter, MeshRenderer, Rigidbody, UnityScene
+from ..scene.joints.configurable_joint import APART
+from .restored import Restored, restored
+from .scene_file import read_buffers, read_scene_file, unsound_as_finding
+from .shapes import shape_of
+from .unity_scene import unity_scene
+
+HELD = Rigidbody(useGravity=False, isKinematic=True)
+"""Of what stands: see ``mapping``."""
+_REPEATS = {word: repeat for repeat, word in WRAP.items()}
+
+
+@dataclass(slots=True, eq=False)
+class WrittenScene(Scene):
+    """written: the same in Unity's terms, as it stands in the file."""
+
+    written: UnityScene = field(default_factory=UnityScene)
+
+    def as_written(self, links: bool, options: ExportOptions) -> UnityScene | None:
+        """What is in the file, where nothing is asked for that it was not made with; None where it is to be made anew.
+
+        links: whether bodies are to be links.
+        """
+        has_links = any(isinstance(c, ArticulationBody) for o in self.written.gameObjects for c in o.components)
+        anew = (
+            options.ground is not Ground.BODY
+            or options.closures is not Closures.EXACT
+            or options.limits
+            or options.reading.get("mates")
+        )
+        return None if anew or (links and not has_links) else self.written
+
+
+def read(path: Path, report: Report, request: object) -> WrittenScene:
+    """A ``NAME.kinefab`` with its buffer.  The report gets what its first export told, and what of it has no place here.
+
+    Raises KinefabError where the file or its buffer cannot be read.
+    """
+    document = read_scene_file(path)
+    with unsound_as_finding(path):
+        scene = unity_scene(document, read_buffers(path, document), report)
+        made = _Nodes(document, scene).scene()
+    for entry in document.get("report", ()):
+        report.outcomes.append(_outcome(entry))
+    return made
+
+
+def _outcome(entry: Mapping[str, Any]) -> FeatureOutcome:
+    return FeatureOutcome(
+        str(entry["feature"]),
+        Outcome(entry["outcome"]),
+        str(entry.get("code", "")),
+        Severity(entry.get("severity", "info")),
+        str(entry.get("message", "")),
+        str(entry.get("source", "")),
+    )
+
+
+class _Nodes:
+    """Objects as nodes, but for the one that stands for the ground and those that only give a mesh, a collider or a name a place."""
+
+    def __init__(self, document: Mapping[str, Any], scene: UnityScene):
+        self.written, self.back = scene, restored(document)
+        self.objects = scene.gameObjects
+        self.children: list[list[int]] = [[] for _ in self.objects]
+        for index, entry in enumerate(self.objects):
+            if entry.parent is not None:
+                self.children[entry.parent].append(index)
+        self.ground = next((i for i, entry in enumerate(self.objects) if entry.id == GROUND_ID), None)
+        self.placed = {i: kind for i in range(len(self.objects)) if (kind := self._place_of(i))}
+        kept = [i for i in range(len(self.objects)) if i != self.ground and i not in self.placed]
+        self.node_of = {index: node for node, index in enumerate(kept)}
+        self.bodies = [_body(entry.components) for entry in self.objects]
+        self.moving = [body is not None and not self._is_held(i) for i, body in enumerate(self.bodies)]
+        self.above_moving = list(self.moving)
+        for index in range(len(self.objects) - 1, -1, -1):
+            parent = self.objects[index].parent
+            if parent is not None and self.above_moving[index]:
+                self.above_moving[parent] = True
+
+    def scene(self) -> WrittenScene:
+        written = self.written
+        nodes = [self._node(index) for index in self.node_of]
+        joints = self._joints()
+        ids = {joint.id for joint in joints}
+        couplings = [c for c in self.back.scene.couplings if c.joints <= ids]
+        extras = {key: value for key, value in written.extras.items() if key != "ignoreCollision"}
+        source, physics = written.source, written.physics
+        return WrittenScene(
+            nodes=nodes,
+            meshes=[_mesh(mesh) for mesh in written.meshes],
+            surfaces=[_surface(material) for material in written.materials],
+            joints=joints,
+            couplings=couplings,
+            animations=self._clips(),
+            source=Source(source.uri, source.upAxis, source.metersPerUnit, source.sha256),
+            physics=Physics(
+                _three(frames.direction(physics.gravity)),
+                physics.fixedTimestep,
+                physics.solverIterations,
+                physics.solverVelocityIterations,
+            ),
+            extras=extras,
+            apart=self._apart(),
+            written=written,
+        )
+
+    def _place_of(self, index: int) -> str:
+        """``body``, ``collider`` or ``site`` of an object that only gives one a place on the node above it, "" of any other."""
+        entry = self.objects[index]
+        if entry.parent is None or self.children[index] or not entry.active:
+            return ""
+        above = self.objects[entry.parent].id
+        kind = entry.id.removeprefix(f"{above}/").partition(":")[0] if entry.id.startswith(f"{above}/") else ""
+        drawn = all(isinstance(c, (MeshFilter, MeshRenderer, Collider)) for c in entry.components)
+        return kind if kind in ("body", "collider", "site") and drawn else ""
+
+    def _is_held(self, index: int) -> bool:
+        """Whether its own body stands: one that holds what stands, or the base of an articulation that is told to."""
+        body = self.bodies[index]
+        if isinstance(body, ArticulationBody):
+            at = self.objects[index].parent
+            while at is not None and not isinstance(self.bodies[at], ArticulationBody):
+                at = self.objects[at].parent
+            return body.immovable and at is None
+        return body == HELD
+
+    def _node(self, index: int) -> Node:
+        entry, body = self.objects[index], self.bodies[index]
+        inner = [i for i in self.children[index] if i in self.placed]
+        bodies = [b for i in (index, *inner) for b in self._bodies(i, index)]
+        shapes = [s for i in (index, *inner) for s in self._shapes(i, index)]
+        stands = body is not None and self._is_held(index)
+        held = stands or (body is None and not self.above_moving[index] and not self._carried(index))
+        below = [i for i in self.children[index] if i in self.node_of]
+        whole = self.moving[index] and bool(below) and not any(self.above_moving[i] for i in below)
+        part = (bool(bodies or shapes or not below) or body is not None) and not whole
+        mass = None
+        if body is not None and not stands:
+            turn = frames.rotation(matrix_from_quaternion(np.array(body.inertiaTensorRotation)))
+            inertia = turn @ np.diag(body.inertiaTensor) @ turn.T
+            mass = MassProperties(body.mass, frames.point(body.centerOfMass), inertia)
+        return Node(
+            entry.id,
+            entry.name,
+            NodeKind.PART if part else NodeKind.ASSEMBLY,
+            self._parent(entry),
+            self.back.poses[index],
+            entry.definition or None,
+            bodies=tuple(bodies),
+            mass=mass,
+            grounded=held and part,
+            flexible=not whole and not self._carried(index),
+            suppressed=not entry.active,
+            colliders=tuple(shapes),
+            dynamics=Dynamics() if body is None or stands else _dynamics(body),
+            sites=tuple(
+                Site(self.objects[i].name, self.back.poses[index].inverse() @ self.back.poses[i])
+                for i in inner
+                if self.placed[i] == "site"
+            ),
+            layer=entry.layer,
+            tag=entry.tag,
+            extras=dict(entry.extras),
+        )
+
+    def _parent(self, entry: GameObject) -> int | None:
+        return None if entry.parent is None else self.node_of.get(entry.parent)
+
+    def _carried(self, index: int) -> bool:
+        """Whether a body further up moves it."""
+        at = self.objects[index].parent
+        while at is not None and at != self.ground:
+            if self.bodies[at] is not None:
+                return True
+            at = self.objects[at].parent
+        return False
+
+    def _local(self, index: int, node: int) -> Pose:
+        return self.back.poses[node].inverse() @ self.back.poses[index]
+
+    def _bodies(self, index: int, node: int) -> list[Body]:
+        components = self.objects[index].components
+        renderer = next((c for c in components if isinstance(c, MeshRenderer)), None)
+        scale = _three(self.back.scales[index])
+        return [
+            Body(
+                self.objects[index].name if index != node else self.written.meshes[c.mesh].name,
+                c.mesh,
+                () if renderer is None else renderer.materials,
+                pose=self._local(index, node),
+                scale=scale,
+                visible=renderer is not None and renderer.enabled,
+                weighed=False,
+            )
+            for c in components
+            if isinstance(c, MeshFilter)
+        ]
+
+    def _shapes(self, index: int, node: int) -> list[Any]:
+        place, scale = self._local(index, node), self.back.scales[index]
+        materials = self.written.physicsMaterials
+        return [
+            shape_of(c, place, scale, materials)
+            for c in self.objects[index].components
+            if isinstance(c, Collider)
+        ]
+
+    def _joints(self) -> list[Joint]:
+        """Between the nodes: the restored ones are between Rigidbodies, and the world is one of them."""
+        carrier = [None if i == 0 else self._index(node.id) for i, node in enumerate(self.back.scene.nodes)]
+        found: list[Joint] = []
+        for (index, k), joint in self.back.joints.items():
+            if APART in getattr(self.objects[index].components[k], "extras", {}):
+                continue
+            ends = [(joint.a or 0, joint.frame_a), (joint.b or 0, joint.frame_b)]
+            (a, frame_a), (b, frame_b) = (self._side(carrier[node], frame) for node, frame in ends)
+            if a != b:
+                found.append(replace(joint, a=a, b=b, frame_a=frame_a, frame_b=frame_b))
+        return found
+
+    def _index(self, id: str) -> int:
+        return next(i for i, entry in enumerate(self.objects) if entry.id == id)
+
+    def _side(self, index: int | None, frame: Pose) -> tuple[int | None, Pose]:
+        if index is None:
+            return None, frame
+        if index == self.ground:
+            return None, self.back.poses[index] @ frame
+        return self.node_of[index], frame
+
+    def _apart(self) -> list[Apart]:
+        """Pairs that pass through each other, by the ids that the file lists; the reason stands on the joint that holds nothing."""
+        node = {self.objects[index].id: number for index, number in self.node_of.items()}
+        reasons: dict[frozenset[str], str] = {}
+        for entry in self.objects:
+            for c in entry.components:
+                extras: Mapping[str, Any] = getattr(c, "extras", {})
+                connected = getattr(c, "connectedBody", None)
+                if APART in extras and connected is not None:
+                    reasons[frozenset((entry.id, self.objects[connected].id))] = str(extras[APART])
+        listed = self.written.extras.get("ignoreCollision")
+        pairs: list[tuple[str, str]] = []
+        for pair in listed if isinstance(listed, list) else ():
+            if isinstance(pair, list) and len(pair) == 2 and all(name in node for name in pair):
+                pairs.append((pair[0], pair[1]))
+        pairs += [
+            (one, other)
+            for one, other in (tuple(sorted(pair)) for pair in reasons)
+            if frozenset((one, other)) not in {frozenset(pair) for pair in pairs}
+        ]
+        return [
+            Apart(node[a], node[b], reasons.get(frozenset((a, b)), "ignoreCollision"), stated=False)
+            for a, b in pairs
+            if a in node and b in node
+        ]
+
+    def _clips(self) -> list[AnimationClip]:
+        return [
+            AnimationClip(
+                clip.name,
+                np.array(clip.times, dtype=np.float64),
+                tuple(
+                    Track(
+                        self.node_of[track.gameObject],
+                        frames.point(track.localPosition) if track.localPosition else None,
+                        frames.quaternion(track.localRotation) if track.localRotation else None,
+                    )
+                    for track in clip.tracks
+                    if track.gameObject in self.node_of
+                ),
+                _REPEATS.get(clip.wrapMode, Repeat.ONCE),
+            )
+            for clip in self.written.animations
+        ]
+
+
+def _three(values: Any) -> tuple[float, float, float]:
+    x, y, z = (float(value) for value in values)
+    return x, y, z
+
+
+def _body(components: Sequence[object]) -> Rigidbody | ArticulationBody | None:
+    return next((c for c in components if isinstance(c, (Rigidbody, ArticulationBody))), None)
+
+
+def _dynamics(body: Rigidbody | ArticulationBody) -> Dynamics:
+    if isinstance(body, ArticulationBody):
+        return Dynamics(False, body.useGravity, body.linearDamping, body.angularDamping)
+    return Dynamics(
+        body.isKinematic,
+        body.useGravity,
+        body.linearDamping,
+        body.angularDamping,
+        max_angular_velocity=body.maxAngularVelocity,
+    )
+
+
+def _mesh(mesh: Mesh) -> ModelMesh:
+    return ModelMesh(
+        mesh.name,
+        frames.point(mesh.vertices),
+        frames.winding(mesh.triangles).astype(np.int64),
+        None if mesh.normals is None else frames.direction(mesh.normals),
+        tuple(np.asarray(uv, dtype=np.float64) for uv in mesh.uvs),
+        face_counts=mesh.submeshes,
+    )
+
+
+def _surface(material: Material) -> Surface:
+    return Surface(
+        material.name,
+        material.color,
+        material.metallic,
+        material.smoothness,
+        material.alphaMode,
+        material.alphaCutoff,
+        material.doubleSided,
+        material.emission,
+        material.colorTexture,
+        material.normalTexture,
+        material.metallicRoughnessTexture,
+        material.occlusionTexture,
+        material.emissionTexture,
+    )

@@ -1,0 +1,51 @@
+"""Bodies that CAD puts into each other: a shaft in its bore, teeth that mesh.  Their motion is a joint's or a coupling's, not contact's."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+from ...model import Apart, ConstraintKind, Scene
+from ...rigid import RigidGroups
+from .rigidbodies import place_rigidbodies
+
+BY_CONTACT = frozenset(
+    {
+        ConstraintKind.DISTANCE,
+        ConstraintKind.TANGENT,
+        ConstraintKind.ANGLE,
+        ConstraintKind.PARALLEL,
+        ConstraintKind.PERPENDICULAR,
+        ConstraintKind.SYMMETRY,
+        ConstraintKind.LOCK_ORIENTATION,
+        ConstraintKind.LINEAR,
+        ConstraintKind.OTHER,
+    }
+)
+"""What is said of bodies that need not touch, or touch from outside, as a follower does its cam."""
+
+
+def with_mated_apart(scene: Scene, groups: RigidGroups) -> Scene:
+    """The scene in which bodies that a constraint puts into each other do not collide, also where no joint is made between them:
+    teeth that mesh, and bearings whose joint hangs the body on another one."""
+    carrier_of = place_rigidbodies(scene, groups).carrier_of
+
+    def body(node: int | None) -> int | None:
+        """What moves as one: the carrier of a Rigidbody, or the lowest node of what is rigid on the ground."""
+        if node is None or not groups.is_ground(node):
+            return None if node is None else carrier_of[node]
+        return groups.standing[node] if groups.standing else node
+
+    known = {frozenset((pair.a, pair.b)) for pair in scene.apart}
+    joined = {frozenset((body(j.a), body(j.b))) for j in scene.joints if not j.collide}
+    found: list[Apart] = []
+    for constraint in scene.constraints:
+        if constraint.kind in BY_CONTACT or constraint.suppressed or len(constraint.features) < 2:
+            continue
+        a, b = (feature.node for feature in constraint.features[:2])
+        if a is None or b is None or groups.together(a, b) or frozenset((a, b)) in known:
+            continue
+        known.add(frozenset((a, b)))
+        if frozenset((body(a), body(b))) not in joined:
+            reason = f"{constraint.kind.value} {constraint.name or constraint.id}"
+            found.append(Apart(a, b, reason, constraint.where, stated=False))
+    return replace(scene, apart=[*scene.apart, *found]) if found else scene

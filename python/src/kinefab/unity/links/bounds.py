@@ -1,0 +1,101 @@
+"""What a link's drives and joint are bounded by beside their limits: dry friction, largest effort, largest speed."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from dataclasses import replace
+from typing import Any
+
+from ...diagnostics import Report
+from ...model import RX, Freedom, Joint, Motion, Passive
+from ..joints.coordinates import canonical
+from ..joints.limits import feature_of
+from ..joints.passive import tell_bounds, unkept_bounds, withdraw_bounds
+from ..scene import ArticulationDrive
+
+FASTEST = 100.0
+"""m/s or rad/s of a link's axis where nobody states less: PhysX's own ``maxJointVelocity``."""
+AXES = ("xDrive", "yDrive", "zDrive")
+
+
+def bounded(moving: Mapping[str, Any], stated: Joint, report: Report) -> dict[str, Any]:
+    """The link's fields with what the source's joint is bounded by: each drive's ``forceLimit``, ``maxJointVelocity`` and
+    ``jointFriction``.  moving: fields of a link that is not Fixed.  What was told as lost, as Unity's joints have no place for
+    it, is told again only where a link has none either."""
+    found = dict(moving)
+    axes = _axes(stated)
+    speed = _speed([stated.freedoms[i].passive or Passive() for i in axes.values()])
+    if speed is not None:
+        found["maxJointVelocity"] = speed
+    for name, index in axes.items():
+        freedom = stated.freedoms[index]
+        if (passive := freedom.passive) is None:
+            continue
+        told = unkept_bounds(freedom)
+        lost = {what: value for what, value in told.items() if what == "effort" or speed is None}
+        drive = found.get(name, ArticulationDrive())
+        if "effort" in lost and (bound := _force_limit(stated, index, drive, passive, report)) is not None:
+            found[name] = replace(drive, forceLimit=bound)
+            del lost["effort"]
+        if lost != told:
+            withdraw_bounds(stated, index, told, report)
+            if lost:
+                tell_bounds(stated, index, lost, report)
+    return found | {"jointFriction": _friction(stated, report)}
+
+
+def _axes(stated: Joint) -> dict[str, int]:
+    """Of each drive that a link has the freedom of the source's joint that it drives, as ``joints.configurable`` names them."""
+    shape = canonical(stated)
+    acting = [*shape.translations, *(RX + i for i in shape.rotations)]
+    if len(acting) == 1:
+        return {"xDrive": shape.name_of[acting[0]]}
+    return {AXES[i]: shape.name_of[RX + i] for i in shape.rotations}
+
+
+def _speed(bounds: list[Passive]) -> float | None:
+    """A link has one for all its axes; with 0 it would stand still for ever, and what that means the source does not say."""
+    speeds = {bound.speed for bound in bounds}
+    speed = speeds.pop() if len(speeds) == 1 else math.inf
+    return speed if 0.0 < speed < math.inf else None
+
+
+def _force_limit(
+    stated: Joint, index: int, drive: ArticulationDrive, passive: Passive, report: Report
+) -> float | None:
+    """The least of the drive's own largest force and the effort; None where that would hold a spring or damper of the joint
+    itself, which no effort bounds, and nothing else."""
+    freedom = stated.freedoms[index]
+    if _own_force(freedom, passive) > passive.effort:
+        if freedom.drive is None and stated.slerp is None:
+            return None
+        value, name = f"{passive.effort:g}", stated.freedom_name(index)
+        told = {"joint": stated.id, "freedom": name, "value": value}
+        feature = feature_of(stated, "largest effort", index)
+        report.approximated(feature, "JOINT_EFFORT_SHARED", stated.where, **told)
+    return min(drive.forceLimit, passive.effort)
+
+
+def _own_force(freedom: Freedom, passive: Passive) -> float:
+    """The most that a joint's own spring and damper can come to, which share its drive."""
+    speed = min(passive.speed, FASTEST) if passive.speed > 0.0 else FASTEST
+    force = passive.damping * speed
+    if passive.stiffness > 0.0:
+        limited = freedom.motion is Motion.LIMITED
+        ends = (freedom.lower, freedom.upper) if limited else (-math.inf, math.inf)
+        force += passive.stiffness * max(abs(end - passive.rest) for end in ends)
+    return force
+
+
+def _friction(stated: Joint, report: Report) -> float:
+    """The link's coefficient, which stands for a force."""
+    frictions = [f.passive.friction for f in stated.freedoms if f.passive is not None]
+    most = max(frictions, default=0.0)
+    if most > 0.0:
+        feature = f"friction of joint {stated.id}"
+        for freedom in stated.unlocked:
+            report.withdraw(feature_of(stated, "friction", freedom), "JOINT_FRICTION_DROPPED")
+        told = {"joint": stated.id, "value": f"{most:g}"}
+        report.approximated(feature, "JOINT_FRICTION_COEFFICIENT", stated.where, **told)
+    return most

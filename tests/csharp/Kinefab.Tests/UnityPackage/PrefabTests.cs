@@ -1,0 +1,70 @@
+using System;
+using System.Collections.Generic;
+using System.Diagnostics;
+using System.IO;
+using System.Linq;
+using Kinefab.Tests.Conformance;
+using NUnit.Framework;
+
+namespace Kinefab.Tests.UnityPackage;
+
+/// <summary>Two programs, one result: what the package makes of a scene is what Python's exporter writes as a prefab, field by field.</summary>
+[NonParallelizable]
+public sealed class PrefabTests
+{
+    private static readonly string Repository = Path.GetFullPath(Path.Combine(ConformanceCases.Folder, "..", ".."));
+    private static readonly string Python = Path.Combine(Repository, ".venv", OperatingSystem.IsWindows() ? "Scripts/python.exe" : "bin/python");
+    private string folder = "";
+
+    [OneTimeSetUp]
+    public void Export()
+    {
+        if (!File.Exists(Python))
+            Assert.Ignore("the Python half is not set up (make setup)");
+        folder = Directory.CreateTempSubdirectory("kinefab-prefabs-").FullName;
+        using var done = Process.Start(new ProcessStartInfo(Python, [Path.Combine(Repository, "tests", "python", "prefabs.py"), folder]) { RedirectStandardError = true })!;
+        string said = done.StandardError.ReadToEnd();
+        done.WaitForExit();
+        Assert.That(done.ExitCode, Is.Zero, said);
+    }
+
+    [OneTimeTearDown]
+    public void Remove()
+    {
+        if (folder.Length > 0)
+            Directory.Delete(folder, recursive: true);
+    }
+
+    [TestCase("body", 80)]
+    [TestCase("world", 80)]
+    [TestCase("links", 50)]
+    [TestCase("clips", 1)]
+    public void Import_EveryFixture_IsThePrefabOfTheSameExport(string kind, int least)
+    {
+        string[] prefabs = [.. Directory.GetFiles(folder, "*.prefab", SearchOption.AllDirectories).Where(p => p.Contains($" {kind}{Path.DirectorySeparatorChar}", StringComparison.Ordinal)).Order(StringComparer.Ordinal)];
+        Assert.That(prefabs, Has.Length.AtLeast(least));
+        List<string> apart = [];
+        int compared = 0;
+        foreach (string prefab in prefabs)
+        {
+            var comparison = new PrefabComparison(prefab);
+            ImportedAsset asset = ImportedAsset.Of(Path.ChangeExtension(prefab, ".kinefab"));
+            Assert.That(asset.Context.Errors, Is.Empty, prefab);
+            try
+            {
+                using (new global::NUnit.Framework.Internal.TestExecutionContext.IsolatedContext())
+                    comparison.Same(asset.Root);
+            }
+            catch (AssertionException fault)
+            {
+                apart.Add($"{Path.GetFileName(Path.GetDirectoryName(prefab))}: {fault.Message}");
+            }
+
+            compared += comparison.Compared;
+        }
+
+        Assert.That(apart, Is.Empty);
+        TestContext.Out.WriteLine($"{prefabs.Length} prefabs, {compared} fields");
+        Assert.That(compared, Is.GreaterThan(100 * prefabs.Length));
+    }
+}

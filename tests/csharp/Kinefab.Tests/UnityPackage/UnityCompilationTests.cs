@@ -1,0 +1,21 @@
+using System.Collections.Generic;
+using System.Linq;
+using Microsoft.CodeAnalysis;
+using NUnit.Framework;
+
+namespace Kinefab.Tests.UnityPackage;
+
+/// <summary>The package's sources compile for every editor, in the editor and in what it builds, with either way of input.</summary>
+public sealed class UnityCompilationTests
+{
+    private static IEnumerable<TestCaseData> Editors() =>
+        UnityEditors.All.SelectMany(editor => new[] { true, false }.Select(isEditor => new TestCaseData(editor, isEditor)));
+
+    [TestCaseSource(nameof(Editors))]
+    public void Sources_OfEveryEditor_Compile(string editor, bool isEditor)
+    {
+        string[] inputs = ["ENABLE_LEGACY_INPUT_MANAGER", "ENABLE_INPUT_SYSTEM"];
+        IEnumerable<Diagnostic> errors = UnityEditors.Compile(editor, isEditor, inputs[0]).GetDiagnostics().Where(d => d.Severity == DiagnosticSeverity.Error);
+        Assert.That(errors.Select(d => d.ToString()), Is.Empty);
+    }
+}

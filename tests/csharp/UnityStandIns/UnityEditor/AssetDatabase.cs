@@ -1,0 +1,94 @@
+using System;
+using System.Collections.Generic;
+using UnityEngine;
+using Object = UnityEngine.Object;
+
+namespace UnityEditor
+{
+    public sealed class AssetDatabase
+    {
+        internal static readonly Dictionary<string, AssetImporter> Importers = new Dictionary<string, AssetImporter>();
+        internal static readonly Dictionary<string, Object[]> Assets = new Dictionary<string, Object[]>();
+        internal static readonly Dictionary<string, Hash128> Dependencies = new Dictionary<string, Hash128>();
+
+        public static Object[] LoadAllAssetsAtPath(string assetPath) => Assets.TryGetValue(assetPath, out Object[] found) ? found : Array.Empty<Object>();
+
+        public static T LoadAssetAtPath<T>(string assetPath) where T : Object => Array.Find(LoadAllAssetsAtPath(assetPath), o => o is T) as T;
+
+        public static string GetAssetPath(Object assetObject)
+        {
+            foreach (KeyValuePair<string, Object[]> asset in Assets)
+            {
+                if (Array.IndexOf(asset.Value, assetObject) >= 0)
+                {
+                    return asset.Key;
+                }
+            }
+
+            return "";
+        }
+
+        public static void CreateAsset(Object asset, string path) => Assets[path] = new[] { asset };
+
+        public static string GenerateUniqueAssetPath(string path) => path;
+
+        public static bool WriteImportSettingsIfDirty(string path) => true;
+
+        public static void ImportAsset(string path, ImportAssetOptions options = ImportAssetOptions.Default)
+        {
+        }
+
+        public static void RegisterCustomDependency(string dependency, Hash128 hashOfValue) => Dependencies[dependency] = hashOfValue;
+    }
+
+    [Flags]
+    public enum ImportAssetOptions
+    {
+        Default = 0,
+        ForceUpdate = 1,
+    }
+
+    public static class Unwrapping
+    {
+        public static void GenerateSecondaryUVSet(Mesh src) => src.uv2 = new Vector2[src.vertexCount];
+    }
+
+    public static class FileUtil
+    {
+        public static string GetPhysicalPath(string path) => path;
+    }
+
+    public sealed partial class EditorUtility
+    {
+        internal static readonly List<float> Progress = new List<float>();
+
+        internal static bool IsBarShown { get; private set; }
+
+        public static void DisplayProgressBar(string title, string info, float progress)
+        {
+            IsBarShown = true;
+            Progress.Add(progress);
+        }
+
+        public static void ClearProgressBar() => IsBarShown = false;
+    }
+
+    [AttributeUsage(AttributeTargets.Method)]
+    public class InitializeOnLoadMethodAttribute : Attribute
+    {
+    }
+}
+
+namespace UnityEngine
+{
+    public struct Hash128 : IEquatable<Hash128>
+    {
+        private string _of;
+
+        public static Hash128 Compute(string data) => new Hash128 { _of = data };
+
+        public bool Equals(Hash128 other) => _of == other._of;
+
+        public override string ToString() => _of;
+    }
+}

@@ -1,0 +1,171 @@
+using System;
+
+namespace UnityEngine
+{
+    [Flags]
+    public enum RigidbodyConstraints
+    {
+        None = 0,
+        FreezePositionX = 2,
+        FreezePositionY = 4,
+        FreezePositionZ = 8,
+        FreezePosition = 14,
+        FreezeRotationX = 16,
+        FreezeRotationY = 32,
+        FreezeRotationZ = 64,
+        FreezeRotation = 112,
+        FreezeAll = 126,
+    }
+
+    public enum RigidbodyInterpolation
+    {
+        None = 0,
+        Interpolate = 1,
+        Extrapolate = 2,
+    }
+
+    public enum CollisionDetectionMode
+    {
+        Discrete = 0,
+        Continuous = 1,
+        ContinuousDynamic = 2,
+        ContinuousSpeculative = 3,
+    }
+
+    public sealed partial class Rigidbody : Component
+    {
+        /// <summary>Its Transform was set after the body was there: PhysX made it at another place.</summary>
+        internal bool MovedAfterMade { get; set; }
+
+        private Vector3 _inertiaTensor = new Vector3(1, 1, 1);
+
+        public float mass { get; set; } = 1;
+
+#if UNITY_6000_0_OR_NEWER
+        public float linearDamping { get; set; }
+
+        public float angularDamping { get; set; } = 0.05f;
+#else
+        public float drag { get; set; }
+
+        public float angularDrag { get; set; } = 0.05f;
+#endif
+
+#if UNITY_2022_2_OR_NEWER
+        public bool automaticCenterOfMass { get; set; } = true;
+
+        public bool automaticInertiaTensor { get; set; } = true;
+#endif
+
+        public Vector3 centerOfMass { get; set; }
+
+        public Vector3 inertiaTensor
+        {
+            get => _inertiaTensor;
+            set => _inertiaTensor = value.x > 0 && value.y > 0 && value.z > 0 ? value : throw new ArgumentException("Unity refuses moments that are not above zero.");
+        }
+
+        public Quaternion inertiaTensorRotation { get; set; } = new Quaternion(0, 0, 0, 1);
+
+        public bool useGravity { get; set; } = true;
+
+        public bool isKinematic { get; set; }
+
+        public RigidbodyInterpolation interpolation { get; set; }
+
+        public RigidbodyConstraints constraints { get; set; }
+
+        public CollisionDetectionMode collisionDetectionMode { get; set; }
+
+        public float maxAngularVelocity { get; set; } = 7;
+
+        public int solverIterations { get; set; } = 6;
+
+        public int solverVelocityIterations { get; set; } = 1;
+    }
+
+#if UNITY_6000_3_OR_NEWER
+    public struct IntegrationInfo
+    {
+        public string name { get; internal set; }
+
+        public bool isFallback { get; internal set; }
+    }
+#endif
+
+    public static partial class Physics
+    {
+#if UNITY_6000_3_OR_NEWER
+        internal static IntegrationInfo Integration = new IntegrationInfo { name = "PhysX" };
+
+        public static IntegrationInfo GetCurrentIntegrationInfo() => Integration;
+
+#endif
+        public static Vector3 gravity { get; set; } = new Vector3(0, -9.81f, 0);
+
+        public static float bounceThreshold { get; set; } = 2;
+
+        public static int defaultSolverIterations { get; set; } = 6;
+
+        public static int defaultSolverVelocityIterations { get; set; } = 1;
+
+        public static float defaultMaxAngularSpeed { get; set; } = 50;
+    }
+
+    public partial class Collider : Component
+    {
+        public bool enabled { get; set; } = true;
+
+        public bool isTrigger { get; set; }
+    }
+
+    public sealed class BoxCollider : Collider
+    {
+        public Vector3 center { get; set; }
+
+        public Vector3 size { get; set; } = new Vector3(1, 1, 1);
+    }
+
+    public sealed class SphereCollider : Collider
+    {
+        public Vector3 center { get; set; }
+
+        public float radius { get; set; } = 0.5f;
+    }
+
+    public sealed class CapsuleCollider : Collider
+    {
+        public Vector3 center { get; set; }
+
+        public float radius { get; set; } = 0.5f;
+
+        public float height { get; set; } = 1;
+
+        public int direction { get; set; } = 1;
+    }
+
+    [Flags]
+    public enum MeshColliderCookingOptions
+    {
+        None = 0,
+        CookForFasterSimulation = 2,
+        EnableMeshCleaning = 4,
+        WeldColocatedVertices = 8,
+        UseFastMidphase = 16,
+    }
+
+    public sealed class MeshCollider : Collider
+    {
+        private bool _convex;
+
+        public Mesh sharedMesh { get; set; }
+
+        public MeshColliderCookingOptions cookingOptions { get; set; } = (MeshColliderCookingOptions)30;
+
+        public bool convex
+        {
+            get => _convex;
+            set => _convex = sharedMesh == null ? value : throw new InvalidOperationException("Unity has cooked the other shape already.");
+        }
+    }
+}

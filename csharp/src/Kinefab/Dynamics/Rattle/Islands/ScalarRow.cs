@@ -78,7 +78,7 @@ internal struct ScalarRow
 
     /// <summary>
     /// Whether a limit is not reached at the start of the step, or has no row there, as in the middle of a cone: the drift is not held by it,
-    /// and where it reaches it, see <see cref="Substep"/>, the joint strikes.
+    /// and where it reaches it, see Substep, the joint strikes.
     /// </summary>
     public bool IsApart;
 

@@ -40,7 +40,7 @@ internal sealed partial class ActiveSet<V>
         _rows = scalars.Rows;
     }
 
-    /// <summary>Whether limits that a drift has to reach first are left to <see cref="Substep"/>, or held from the start of the step on.</summary>
+    /// <summary>Whether limits that a drift has to reach first are left to Substep, or held from the start of the step on.</summary>
     public bool LocatesEvents { get; set; }
 
     /// <summary>

@@ -54,7 +54,16 @@ internal static class InitialVelocityProjection
         batch.ActiveSet?.Deactivate();
         RattleStep<ScalarLane>.Factor(batch, false);
         Impulses<ScalarLane>.NegativeSpeeds(batch);
-        exact.Solve(false);
+        if (batch.Shape.Loops == LoopConsistency.Exact)
+        {
+            exact.Solve(false);
+        }
+        else
+        {
+            batch.ActiveSet?.ClearAtBound(blow);
+            BlockCholesky<ScalarLane>.Solve(batch.Shape.Pattern, batch.Matrix, blow);
+        }
+
         Impulses<ScalarLane>.Apply(batch, blow);
         for (int i = 0; i < blow.Length; i++)
         {

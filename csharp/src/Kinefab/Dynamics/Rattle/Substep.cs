@@ -150,8 +150,11 @@ internal sealed class Substep
         _pieceStart.Restore(_batch);
         Array.Clear(_batch.VelocityImpulses, 0, _batch.VelocityImpulses.Length);
         _batch.Scalars?.ClearHistory();
-        return TryDrift(h, tolerance, _batch.Shape.IsInconsistent ? null : _exact);
+        return TryDrift(h, tolerance, IsExact ? _exact : null);
     }
+
+    // A loop that was rounded, held to the letter, is braked or stirred up.
+    private bool IsExact => _batch.Shape.Loops == LoopConsistency.Exact;
 
     private bool TryDrift(double h, double tolerance, ConjugateGradient? exact = null)
     {
@@ -168,7 +171,7 @@ internal sealed class Substep
             _batch.ActiveSet.LocatesEvents = false;
         }
 
-        if (_batch.Shape.IsInconsistent || !_projected.TrySolve(h, tolerance))
+        if (!IsExact || !_projected.TrySolve(h, tolerance))
         {
             return false;
         }

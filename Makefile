@@ -9,7 +9,7 @@ SDK = dotnet --list-sdks 2>/dev/null | grep -q '^1[0-9]\.'
 export DOTNET_CLI_TELEMETRY_OPTOUT := 1
 export DOTNET_NOLOGO := 1
 
-.PHONY: help extras setup tool unity demo test bench docs golden clean
+.PHONY: help extras setup tool unity demo test bench docs golden tester-kit clean
 
 help: ## this list
 	@grep -E '^[a-z]+:.*##' $(MAKEFILE_LIST) | sed -E 's/:.*## /\t/' | expand -t 10
@@ -78,6 +78,9 @@ docs: ## the guides and the C# reference as pages, out/docs/index.html; a broken
 
 golden: setup ## write the golden scenes of fixtures anew; read the difference before you commit it
 	$(PYTHON) tests/python/golden.py
+
+tester-kit: setup ## the files for schemas/TESTER.md: what one person with an editor looks at
+	$(PYTHON) tests/tester/kit.py $(OUT)/tester-kit
 
 clean: ## remove everything that is made
 	rm -rf .venv out artifacts node_modules tests/reference/node_modules

@@ -29,10 +29,18 @@ def guid_of(path: str) -> str:
     return KEPT.get(path) or guid(NAME, path)
 
 
+def is_of_exporter(path: str) -> bool:
+    """Whether ``kinefab export`` wrote a sample's file, and its meta with the guid by which the files beside it know it."""
+    parts = PurePosixPath(path).parts
+    return len(parts) > 3 and parts[0] == "Samples~" and parts[2] == "Prefab"
+
+
 def meta_of(path: str, is_folder: bool) -> str:
     """The text of the meta beside a file or folder."""
     own = guid_of(path)
     name = PurePosixPath(path).name
+    if is_of_exporter(path):
+        return (PACKAGE / f"{path}.meta").read_text("utf-8")
     if is_folder:
         return metas.folder_meta(own)
     if name == "package.json":

@@ -65,7 +65,7 @@ def test_without_the_library_hulls_collide_and_it_is_told_once(tmp_path, monkeyp
 
 
 def test_a_grounded_part_keeps_its_hole_and_a_solid_one_its_hull(tmp_path):
-    solid = trimesh.creation.box((0.1, 0.1, 0.1))
+    solid = trimesh.creation.cylinder(0.1, 0.1)
     content, _ = exported(
         tmp_path, ("Guide", RING, (0, 0, 0), True, None), ("Block", solid, (1, 0, 0), False, None),
         ("Own", RING, (2, 0, 0), False, "hull"),

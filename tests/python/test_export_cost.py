@@ -130,7 +130,8 @@ def test_colliders_are_made_of_the_source_s_vertices(tmp_path, monkeypatch):
     small_hull, joined = hulls._small_hull, closure.joined_vertices
     monkeypatch.setattr(hulls, "_small_hull", lambda p: points.append(len(p)) or small_hull(p))
     monkeypatch.setattr(closure, "joined_vertices", lambda *a: welded.append(1) or joined(*a))
-    result = kinefab.export(plates_in_one_file(tmp_path, [0.3]), tmp_path / "a.kinefab")
+    options = kinefab.ExportOptions(colliders="hull")
+    result = kinefab.export(plates_in_one_file(tmp_path, [0.3]), tmp_path / "a.kinefab", options)
     source = result.analysed.scene.meshes[0]
     assert points == [len(source.vertices)] and welded == []
     assert len(result.unity.meshes[0].vertices) == 24

@@ -63,7 +63,7 @@ FLOORS: dict[str, list[set[str]]] = {
         {"__init__"},
     ],
     "targets/prefab": [
-        {"text", "files", "names", "manifest"},
+        {"text", "files", "names", "manifest", "last"},
         {"options", "assets", "objects", "moment", "meshes"},
         {"losses", "project"},
         {"folder", "exporting"},

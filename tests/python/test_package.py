@@ -37,7 +37,7 @@ def test_what_the_api_hands_out_is_public(tmp_path):
     options = kinefab.ExportOptions(closures=kinefab.Closures.EXACT)
     scene = lid_scene()
     result = kinefab.export(scene, tmp_path / "lid.kinefab", options)
-    (kept,) = result.report.outcomes
+    kept = result.report.outcomes[0]
     found = result.report.add("SCENE_WITHOUT_PARTS")
     mechanism = kinefab.motion(scene)
     swept = mechanism.sweep("Hinge", 0, 120)

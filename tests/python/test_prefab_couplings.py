@@ -97,7 +97,7 @@ def test_every_package_has_the_same_script_at_the_same_place(tmp_path):
         options = kinefab.ExportOptions(writing={"scripts": True})
         kinefab.export(rich_scene(tmp_path), tmp_path / f"{name}.unitypackage", options)
         with tarfile.open(tmp_path / f"{name}.unitypackage") as tar:
-            names = {m.name: tar.extractfile(m).read() for m in tar}
+            names = {m.name: tar.extractfile(m).read() for m in tar if m.isfile()}
         own = {
             n: d
             for n, d in names.items()

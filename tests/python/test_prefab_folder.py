@@ -344,7 +344,7 @@ def test_long_names_fit_into_a_path_of_windows(tmp_path, length):
     surfaces = [replace(s, name=f"{begin}{i}") for i, s in enumerate(scene.surfaces)]
     kinefab.export(replace(scene, surfaces=surfaces), tmp_path / f"{'x' * length}.unitypackage")
     with tarfile.open(tmp_path / f"{'x' * length}.unitypackage") as tar:
-        files = {m.name: tar.extractfile(m).read() for m in tar}
+        files = {m.name: tar.extractfile(m).read() for m in tar if m.isfile()}
     paths = {n.partition("/")[0]: d.decode() for n, d in files.items() if n.endswith("/pathname")}
     assert max(map(len, paths.values())) + len(".meta") <= 205
     materials = {guid: Path(path).stem for guid, path in paths.items() if path.endswith(".mat")}

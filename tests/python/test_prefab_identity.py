@@ -229,7 +229,9 @@ def test_prefab_and_package_have_the_same_numbers(tmp_path, suffix):
     kinefab.export(rich_scene(tmp_path), tmp_path / "Rich.prefab")
     kinefab.export(rich_scene(tmp_path), tmp_path / "Rich.unitypackage")
     with tarfile.open(tmp_path / "Rich.unitypackage") as tar:
-        held = {m.name: tar.extractfile(m).read() for m in tar}
+        held = {m.name: tar.extractfile(m).read() for m in tar if m.isfile()}
+        folders = [m.name for m in tar.getmembers() if m.isdir()]  # as the editor has them, each before what it holds
+        assert folders == list(dict.fromkeys(m.name.partition("/")[0] for m in tar.getmembers()))
         assert all(m.mtime == 0 and m.uid == m.gid == 0 for m in tar.getmembers())
     names = [n.partition("/")[0] for n in held]
     assert names == sorted(names)

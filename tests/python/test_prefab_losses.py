@@ -235,7 +235,7 @@ def test_a_collider_without_size_is_left_out(tmp_path):
     codes = [o.feature for o in result.report.outcomes if o.code == "COLLIDER_EMPTY"]
     assert codes == ["SphereCollider dot of Top/Arm:1", "BoxCollider of Top/Arm:1"]
     text = (tmp_path / "out" / "Rich.prefab").read_text()
-    assert "SphereCollider:" not in text
+    assert "m_Radius: 0\n" not in text
     read_prefab(tmp_path / "out" / "Rich.prefab")
 
 

@@ -56,10 +56,13 @@ def compared(scene_path: Path, prefab: Path, dialect: str = "2022") -> list[str]
     content = read(scene_path)
     root, project = read_prefab(prefab)
     roots = [i for i, o in enumerate(content["gameObjects"]) if "parent" not in o]
+    assert root.name == prefab.stem  # as an editor has it
     nodes: dict[int, Node] = {}
     found: list[str] = []
     single = len(roots) == 1 and content["gameObjects"][roots[0]].get("transform", {}) == {}
-    assert single or (root.name == prefab.stem and root.transform["localPosition"] == [0, 0, 0])
+    assert single or root.transform["localPosition"] == [0, 0, 0]
+    if single:
+        content["gameObjects"][roots[0]]["name"] = prefab.stem
 
     def match(index: int, node: Node) -> None:
         nodes[index] = node

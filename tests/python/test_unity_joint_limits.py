@@ -83,6 +83,28 @@ def test_a_fast_motor_makes_the_limits_of_its_hinge_extended():
         assert case.component.get("extendedLimits", False) is extended
 
 
+@pytest.mark.parametrize(("low", "high", "speed", "told"), [(-180, 180, 1.0, "180"), (-179, 5, 1.0, "179"), (-170, 170, 3.0, "")])
+def test_a_stop_that_a_configurable_joint_may_pass_is_told(low, high, speed, told):
+    """It has no extendedLimits, and turns past its stop as a hinge without them does; a link of an articulation does not."""
+    drive = Drive(stiffness=10.0, damping=1.0, max_force=5.0)
+    freedom = replace(between(low, high), passive=Passive(speed=speed), drive=drive)
+    case = Case(7, JointKind.REVOLUTE, rx=freedom)
+    assert case.component["type"] == "ConfigurableJoint"
+    found = [d.message for d in case.report.diagnostics if d.code == "JOINT_STOP_WRAPS"]
+    assert len(found) == (1 if told else 0) and all(f"at {told} degrees" in message for message in found)
+
+
+def test_a_link_holds_a_stop_at_half_a_turn(tmp_path):
+    scene = kinefab.Scene()
+    base, arm = scene.add_part("Base", grounded=True), scene.add_part("Arm")
+    drive = kinefab.Drive(stiffness=10.0, damping=1.0, max_force=5.0)
+    scene.add_hinge(base, arm, point=(0, 0, 0), axis=(0, 0, 1), limits=(-180, 180), drive=drive)
+    for physics, told in (("rigidbody", True), ("articulation", False)):
+        options = kinefab.ExportOptions(writing={"physics": physics})
+        result = kinefab.export(scene, tmp_path / "a.kinefab", options)
+        assert ("JOINT_STOP_WRAPS" in {d.code for d in result.report.diagnostics}) is told
+
+
 @pytest.mark.parametrize(
     ("stop", "speed", "extended"), [("3.141592653589793", 3, True), ("2.97", 3, False), ("2.97", 7, True)]
 )

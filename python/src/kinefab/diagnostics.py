@@ -244,6 +244,18 @@ class Report:
         else:
             self.outcomes.append(FeatureOutcome(feature, Outcome.KEPT, where=where))
 
+    def noted(self, feature: str, code: str, where: str = "", **values: object) -> None:
+        """Note that a feature is in the scene as the source has it, with a remark for whoever looks at that feature: no finding.
+
+        >>> report = kinefab.Report()
+        >>> report.noted("collider Box", "COLLIDER_RECOGNISED", body="Box", shape="BoxCollider")
+        >>> len(report.outcomes), len(report.diagnostics)
+        (1, 0)
+        """
+        beside = Report()
+        beside.kept(feature, where, code, **values)
+        self.outcomes += beside.outcomes
+
     def approximated(self, feature: str, code: str, where: str = "", **values: object) -> None:
         """Note that a feature is in the scene nearly as the source has it, and the finding that says how nearly.
 

@@ -20,7 +20,8 @@ DEFAULT_SMOOTH = 30.0
 
 
 class ColliderShape(str, Enum):
-    """AUTO: the mesh itself where nothing moves it by force, else its hull, or convex pieces where it is hollow.
+    """AUTO: a box, ball or capsule where the mesh is one within 1e-4 of its size; else the mesh itself where nothing moves it by
+    force, else its hull, or convex pieces where it is hollow.
 
     >>> import kinefab
     >>> kinefab.ExportOptions(colliders="box").colliders is kinefab.ColliderShape.BOX

@@ -187,7 +187,7 @@ def export(
     >>> hinge = scene.add_hinge(None, door, point=(0, 1, 0), axis=(0, 1, 0), limits=(0, 110), name="Hinge")
     >>> result = kinefab.export(scene, "door.kinefab")
     >>> [(outcome.feature, outcome.outcome.value) for outcome in result.report.outcomes]
-    [('joint Hinge', 'kept')]
+    [('collider Door/Door', 'kept'), ('joint Hinge', 'kept')]
     """
     if not isinstance(cast(object, target), (str, os.PathLike)):
         raise TypeError(f"the target is {target!r}; pass a path that ends in {' or '.join(known_endings())}")

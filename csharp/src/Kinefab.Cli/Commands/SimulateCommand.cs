@@ -1,6 +1,7 @@
 using System;
 using System.CommandLine;
 using System.Globalization;
+using System.Linq;
 using Kinefab.Cli.Motion;
 using Kinefab.Cli.Simulation;
 using Kinefab.Diagnostics;
@@ -10,14 +11,13 @@ using Kinefab.Validation;
 
 namespace Kinefab.Cli.Commands;
 
-/// <summary>dotnet kinefab simulate FILES --seconds S [--step DT] [--solver unity|exact] [-o traj.json|csv] [--drive JOINT=VALUE...] [--json] [--junit FILE].</summary>
+/// <summary>dotnet kinefab simulate FILES --seconds S [--step DT] [--solver unity|exact] [-o traj.json|csv] [--drive JOINT=VALUE...] [--record FILE [--every N] | --replay FILE] [--json] [--junit FILE].</summary>
 internal static class SimulateCommand
 {
     internal static Command Create()
     {
         var scenes = new SceneArguments();
         Option<double?> seconds = TypedOptions.Positive("--seconds", $"How long to simulate; at most {TypedOptions.MostSteps} steps.");
-        seconds.Required = true;
         Option<double?> step = TypedOptions.Positive("--step", "Time step in seconds; default: the scene's fixedTimestep.");
         Option<SolverKind> solver = TypedOptions.Solver();
         Option<string?> output = TypedOptions.Trajectory();
@@ -25,15 +25,36 @@ internal static class SimulateCommand
         {
             Description = "JOINT[.COORDINATE]=VALUE[/s]: drive a joint to a value or, with /s, at a speed; degrees or metres. JOINT is what the CAD program calls it, or the id or name of its GameObject, with [COMPONENT] behind it where one object carries several joints.",
         };
-        var command = new Command("simulate", "Run a scene and say what its joints did.") { seconds, step, solver, output, drives };
+        var record = new Option<string?>("--record") { Description = "Write down the run, NAME.kfrec: what went in, and a hash of the state after its steps." };
+        Option<int> every = TypedOptions.Count("--every", "Steps between two hashes of --record.", most: TypedOptions.MostSteps, standard: 1);
+        var replay = new Option<string?>("--replay") { Description = "Make a recorded run again, with its seconds, step, solver and drives, and name the first step that differs (exit 1)." };
+        var command = new Command("simulate", "Run a scene and say what its joints did.") { seconds, step, solver, output, drives, record, every, replay };
+        command.Validators.Add(result =>
+        {
+            bool isReplay = result.GetResult(replay) is not null;
+            if (!isReplay && result.GetResult(seconds) is null)
+                result.AddError("Option '--seconds' is required.");
+            foreach (Option given in new Option[] { seconds, step, solver, drives, record, every })
+            {
+                if (isReplay && result.GetResult(given) is { Implicit: false })
+                    result.AddError($"{given.Name} cannot be given beside --replay, whose file says how to run.");
+            }
+        });
         scenes.AddTo(command);
         command.SetAction(parsed =>
         {
             SceneBatch batch = scenes.Of(parsed);
             string? target = parsed.GetValue(output);
-            if (batch.FaultOfSingle("--output", target) is string fault)
+            string? recordTo = parsed.GetValue(record);
+            string? replayOf = parsed.GetValue(replay);
+            if ((batch.FaultOfSingle("--output", target) ?? batch.FaultOfSingle("--record", recordTo) ?? batch.FaultOfSingle("--replay", replayOf)) is string fault)
                 return WrongUsage.Refuse(fault);
-            var run = new Run(parsed.GetRequiredValue(seconds)!.Value, parsed.GetValue(step), parsed.GetValue(solver), target, parsed.GetValue(drives) ?? [], batch.IsJson);
+            var run = new Run(parsed.GetValue(seconds) ?? 0, parsed.GetValue(step), parsed.GetValue(solver), target, parsed.GetValue(drives) ?? [], batch.IsJson)
+            {
+                RecordTo = recordTo,
+                Every = parsed.GetValue(every),
+                ReplayOf = replayOf,
+            };
             return batch.Run(run.Of);
         });
         return command;
@@ -41,16 +62,45 @@ internal static class SimulateCommand
 
     private sealed record Run(double Seconds, double? Step, SolverKind Kind, string? Output, string[] Drives, bool IsJson)
     {
+        internal string? RecordTo { get; init; }
+
+        internal int Every { get; init; } = 1;
+
+        internal string? ReplayOf { get; init; }
+
+        private RunRecord? Replayed { get; init; }
+
         internal SceneOutcome Of(string file)
+        {
+            if ((RecordTo ?? ReplayOf) is not null && file == LoadedScene.StandardInput)
+                return SceneOutcome.Refused(Report.Empty, "--record and --replay need a file: they name the scene by its bytes.");
+            if (ReplayOf is null)
+                return Simulate(file);
+            (RunRecord? replayed, Report report) = RecordFile.Load(ReplayOf);
+            if (replayed is null)
+                return Fail(file, Report.Empty, report);
+            return (this with { Replayed = replayed, Kind = replayed.Solver, Step = replayed.Step, Seconds = replayed.Steps * replayed.Step, Drives = [.. replayed.Drives] }).Simulate(file);
+        }
+
+        private SceneOutcome Simulate(string file)
         {
             LoadedScene loaded = LoadedScene.Load(file, strict: false);
             Tell(file, loaded.Report);
             if (loaded.Scene is null)
                 return new SceneOutcome(loaded.ExitCode, loaded.Report);
             double dt = Step ?? loaded.Scene.Document.Physics.FixedTimestep;
-            double count = Math.Max(1, Math.Round(Seconds / dt));
+            double count = Replayed?.Steps ?? Math.Max(1, Math.Round(Seconds / dt));
             if (count > TypedOptions.MostSteps)
                 return SceneOutcome.Refused(loaded.Report, string.Create(CultureInfo.InvariantCulture, $"--seconds {Seconds} at {dt} s a step makes {count} steps; at most {TypedOptions.MostSteps} are run. Give fewer seconds or a longer --step."));
+            RunRecord? plan = null;
+            if ((RecordTo ?? ReplayOf) is not null)
+            {
+                string hash = RecordFile.HashOfScene(file);
+                plan = Replayed ?? new RunRecord(hash, Kind, dt, (int)count, Drives, Every, []);
+                if (plan.Scene != hash)
+                    return Fail(file, loaded.Report, new Report([Diagnostic.Of(DiagnosticCodes.RecordingOtherScene, "", ("path", ReplayOf!), ("scene", file))]));
+            }
+
             World world = World.Create(loaded.Scene, Kind);
             Tell(file, world.Findings);
             Report before = loaded.Report.Concat(world.Findings);
@@ -64,16 +114,22 @@ internal static class SimulateCommand
             var steps = (int)count;
             if (Output is not null && TrajectorySize.Fault(steps, world.Bodies.Count, mechanism!.Coordinates.Count) is string excess)
                 return SceneOutcome.Refused(before, $"--output {Output}: {excess} Give fewer seconds or a longer --step.");
-            Report target = Output is null ? Report.Empty : TargetFile.Check(Output);
-            if (target.HasErrors)
-                return Fail(file, before, target);
-            return Move(file, loaded.Scene, world, mechanism, steps, dt, before);
+            foreach (string path in new[] { Output, RecordTo }.OfType<string>())
+            {
+                Report target = TargetFile.Check(path);
+                if (target.HasErrors)
+                    return Fail(file, before, target);
+            }
+
+            return Move(file, loaded.Scene, world, mechanism, steps, dt, before, plan);
         }
 
-        private SceneOutcome Move(string file, ValidScene scene, World world, Mechanism? mechanism, int steps, double dt, Report before)
+        private SceneOutcome Move(string file, ValidScene scene, World world, Mechanism? mechanism, int steps, double dt, Report before, RunRecord? plan)
         {
             var summary = new RunSummary(world, scene, Kind, steps, dt);
             Recording? recording = Output is null ? null : new Recording(world, mechanism!, Kind, dt);
+            StateHashes? hashes = plan is null ? null : new StateHashes(world, plan, isReplay: ReplayOf is not null);
+            hashes?.Note();
             var progress = new Progress(steps);
             RunResult run = world.Run(
                 steps * dt,
@@ -82,6 +138,7 @@ internal static class SimulateCommand
                 {
                     summary.Note();
                     recording?.Note();
+                    hashes?.Note();
                     return false;
                 },
                 progress: progress);
@@ -91,8 +148,14 @@ internal static class SimulateCommand
                 summary.Write(Console.Out);
             Report found = before.Concat(run.Findings);
             Report saved = recording is null ? Report.Empty : TrajectoryFile.Save(recording.Trajectory, Output!);
+            if (RecordTo is not null)
+                saved = saved.Concat(RecordFile.Save(hashes!.Made, RecordTo));
+            if (ReplayOf is not null)
+                saved = saved.Concat(hashes!.Findings(ReplayOf));
             if (saved.HasErrors)
                 return Fail(file, found, saved, summary);
+            if (ReplayOf is not null && !IsJson)
+                Console.Out.WriteLine(Printable.Text($"the same as {ReplayOf}"));
             return world.Stops == 0
                 ? new SceneOutcome(0, found, Fields: summary.WriteJson)
                 : new SceneOutcome(1, found, "the solver could not follow", summary.WriteJson);

@@ -231,6 +231,9 @@ public static class DiagnosticCodes
     /// <summary>A limit of {angle} degrees is cut to 180.</summary>
     public const string HingeLimitsBeyond180 = "HINGE_LIMITS_BEYOND_180";
 
+    /// <summary>The stop at {angle} degrees is so near a half turn that the hinge may turn past it: its angle wraps there.</summary>
+    public const string HingeLimitsWrap = "HINGE_LIMITS_WRAP";
+
     /// <summary>A limit of {angle} degrees is more than extendedLimits reach.</summary>
     public const string HingeLimitsBeyond360 = "HINGE_LIMITS_BEYOND_360";
 
@@ -242,6 +245,9 @@ public static class DiagnosticCodes
 
     /// <summary>A limit of {angle} degrees is never reached: angles are measured within a half turn.</summary>
     public const string AngularLimitBeyond180 = "ANGULAR_LIMIT_BEYOND_180";
+
+    /// <summary>The stop at {angle} degrees is so near a half turn that the joint may turn past it: its angle wraps there.</summary>
+    public const string AngularLimitWraps = "ANGULAR_LIMIT_WRAPS";
 
     /// <summary>A swing limit of {angle} degrees beside a free swing is never reached: the joint's X rises to 90 degrees at most.</summary>
     public const string SwingLimitBeyond90 = "SWING_LIMIT_BEYOND_90";
@@ -308,6 +314,18 @@ public static class DiagnosticCodes
 
     /// <summary>The exact solver leaves out {what} of the link.</summary>
     public const string LinkNotExact = "LINK_NOT_EXACT";
+
+    /// <summary>The recording {path} cannot be read: {detail}.</summary>
+    public const string RecordingUnreadable = "RECORDING_UNREADABLE";
+
+    /// <summary>The recording {path} is of version {version}, this tool knows {known}.</summary>
+    public const string RecordingVersionUnknown = "RECORDING_VERSION_UNKNOWN";
+
+    /// <summary>{path} is the recording of another scene than {scene}, or of an earlier state of the file: its bytes differ.</summary>
+    public const string RecordingOtherScene = "RECORDING_OTHER_SCENE";
+
+    /// <summary>{where} is the first that differs from the recording {path}.</summary>
+    public const string RecordingDiffers = "RECORDING_DIFFERS";
 
     /// <summary>The {joint} comes apart by {measure} within {seconds} s in Unity's solver{others}.</summary>
     public const string AdviceJointDrifts = "ADVICE_JOINT_DRIFTS";

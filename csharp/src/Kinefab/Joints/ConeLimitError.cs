@@ -35,7 +35,7 @@ internal static class ConeLimitError
         }
 
         NearestOnEllipse(y, z, limit.Y, limit.Z, isExact ? Exact : Coarse, out double py, out double pz);
-        var radius = new Vector3d(0, Math.Tan(py / 4), Math.Tan(pz / 4));
+        var radius = new Vector3d(0, Trigonometry.Tan(py / 4), Trigonometry.Tan(pz / 4));
         var direction = new Vector3d(0, py / (limit.Y * limit.Y), pz / (limit.Z * limit.Z));
         error = AxisAndError(radius, direction, swing * Vector3d.UnitX, out axis);
         return true;

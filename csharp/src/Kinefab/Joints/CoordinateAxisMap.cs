@@ -53,7 +53,7 @@ internal readonly struct CoordinateAxisMap
         row.Angular1 = row.Angular0;
         row.Flags = RowFlags.Angular;
         Quaterniond q = f.Relative.Rotation;
-        double angle = Sign * 2 * Math.Atan2(q.Vector[axis], q.W);
+        double angle = Sign * 2 * Trigonometry.Atan2(q.Vector[axis], q.W);
         row.GeometricError = SwingTwist.Nearest(angle, near);
         return row.GeometricError;
     }

@@ -259,7 +259,7 @@ internal sealed class D6Joint : JointModel
     }
 
     private static void Elevation(ref RowWriter writer, Vector3d axis, double sine, double limit, in LimitResponse response) =>
-        writer.AngleLimits(axis.Normalized(), Math.Asin(Math.Max(-1, Math.Min(1, sine))), -limit, limit, response);
+        writer.AngleLimits(axis.Normalized(), Trigonometry.Asin(Math.Max(-1, Math.Min(1, sine))), -limit, limit, response);
 
     // C = limit - |d|, d = c.p along the limited axes only; direction d/|d| in frame 0's axes.
     // Source: ExtD6Joint.cpp, computeLimitedDistance and D6JointSolverPrep (distance limit).

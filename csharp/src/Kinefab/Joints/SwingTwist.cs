@@ -22,7 +22,7 @@ internal readonly struct SwingTwist
     /// Angle of a rotation's twist about X, radians: in (-pi, pi] when w is not negative, else out to -2 pi or 2 pi.
     /// Source: ExtRevoluteJoint.cpp, computePhi (there by acos of a float, which is coarse near 0).
     /// </summary>
-    public static double TwistAngle(Quaterniond q) => 2 * Math.Atan2(q.X, q.W);
+    public static double TwistAngle(Quaterniond q) => 2 * Trigonometry.Atan2(q.X, q.W);
 
     /// <summary>
     /// g of a twist: its rate is g.w for the angular velocity w of frame 1 against frame 0; g = (a0 + a1) / (1 + a0.a1). Where the axis has
@@ -36,5 +36,5 @@ internal readonly struct SwingTwist
     public static double Nearest(double angle, double reference) => angle + 2 * Math.PI * Math.Round((reference - angle) / (2 * Math.PI));
 
     /// <summary>Component of the swing about Y or Z, radians. Source: ExtJoint.h, computeSwingAngle.</summary>
-    public static double SwingAngle(double component, double w) => 4 * Math.Atan2(component, 1 + w);
+    public static double SwingAngle(double component, double w) => 4 * Trigonometry.Atan2(component, 1 + w);
 }

@@ -136,7 +136,7 @@ internal sealed class JsonWriter
         {
             if (reader.Token == JsonToken.String)
                 Value(TextOf(reader));
-            else if (reader.Token == JsonToken.Number && reader.Value.IndexOfAny((byte)'.', (byte)'e', (byte)'E') >= 0 && reader.TryGetDouble(out double number) && !double.IsInfinity(number))
+            else if (reader.Token == JsonToken.Number && reader.Value.IndexOfAny((byte)'.', (byte)'e', (byte)'E') >= 0 && reader.GetDouble() is double number && !double.IsInfinity(number))
                 Value(number);
             else
             {

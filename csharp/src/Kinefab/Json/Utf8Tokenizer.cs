@@ -121,9 +121,17 @@ internal ref struct Utf8Tokenizer
     /// <summary>The number as an integer, if it is written as one that fits.</summary>
     public readonly bool TryGetInt64(out long value) => Utf8Parser.TryParse(Value, out value, out int used) && used == Value.Length;
 
-    /// <summary>The number, nearest; beyond the largest infinite, or false with older runtimes.</summary>
-    public readonly bool TryGetDouble(out double value) =>
-        ShortDecimal.TryParse(Value, out value) || (Utf8Parser.TryParse(Value, out value, out int used) && used == Value.Length);
+    /// <summary>The number, nearest; beyond the largest infinite.</summary>
+    public readonly double GetDouble()
+    {
+        if (ShortDecimal.TryParse(Value, out double value))
+            return value;
+#if NET
+        return Utf8Parser.TryParse(Value, out value, out _) ? value : LongDecimal.Parse(Value);
+#else
+        return LongDecimal.Parse(Value);
+#endif
+    }
 
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
     private readonly int AfterSpace(int at)

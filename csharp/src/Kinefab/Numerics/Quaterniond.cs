@@ -62,8 +62,8 @@ public readonly struct Quaterniond : IEquatable<Quaterniond>
     /// <returns>A unit quaternion.</returns>
     public static Quaterniond AxisAngle(Vector3d axis, double angle)
     {
-        double s = Math.Sin(angle / 2);
-        return new Quaterniond(axis.X * s, axis.Y * s, axis.Z * s, Math.Cos(angle / 2));
+        double s = Trigonometry.Sin(angle / 2);
+        return new Quaterniond(axis.X * s, axis.Y * s, axis.Z * s, Trigonometry.Cos(angle / 2));
     }
 
     /// <summary>The rotation whose axes are the given unit vectors (columns of its matrix), w not negative.</summary>
@@ -125,7 +125,7 @@ public readonly struct Quaterniond : IEquatable<Quaterniond>
         double length = Vector.Length;
         if (!(length > 0))
             return length == 0 ? "unturned" : "no rotation";
-        double half = Math.Atan2(length, Math.Abs(W));
+        double half = Trigonometry.Atan2(length, Math.Abs(W));
         Vector3d axis = Vector * ((W < 0 ? -1 : 1) / length);
         return FormattableString.Invariant($"turned {half * 360 / Math.PI:0.######} deg about ({axis.X:0.######}, {axis.Y:0.######}, {axis.Z:0.######})");
     }

@@ -20,8 +20,8 @@ internal ref partial struct JsonCursor
             return 0;
         }
 
-        // .NET reads 1e999 as infinity, older runtimes refuse it.
-        if (reader.TryGetDouble(out double value) && !double.IsInfinity(value))
+        double value = reader.GetDouble();
+        if (!double.IsInfinity(value))
         {
             if (float.IsInfinity((float)value))
                 Report(DiagnosticCodes.NumberBeyondFloat32, ("number", TokenText()));
@@ -40,7 +40,8 @@ internal ref partial struct JsonCursor
             if (reader.TryGetInt64(out long value))
                 return value;
             const double exact = 9007199254740992;
-            if (reader.TryGetDouble(out double number) && Math.Floor(number) == number && Math.Abs(number) <= exact)
+            double number = reader.GetDouble();
+            if (Math.Floor(number) == number && Math.Abs(number) <= exact)
                 return (long)number;
         }
 

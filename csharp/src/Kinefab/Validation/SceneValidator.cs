@@ -102,7 +102,7 @@ public static class SceneValidator
                     Collider(collider, document, nearestBody, place);
                     break;
                 case Joint joint:
-                    Joint(joint, index, objects, place);
+                    Joint(joint, index, objects, document.Physics.FixedTimestep, place);
                     if (joint is AnchoredJoint)
                         anchored.Add((index, c));
                     break;
@@ -130,7 +130,7 @@ public static class SceneValidator
         }
     }
 
-    private static void Joint(Joint joint, int index, ReadOnlySpan<GameObject> objects, in Place at)
+    private static void Joint(Joint joint, int index, ReadOnlySpan<GameObject> objects, double step, in Place at)
     {
         JointRules.Numbers(joint, at);
         JointRules.OwnBody(objects[index].Link is null ? objects[index].Body : null, at);
@@ -143,28 +143,30 @@ public static class SceneValidator
         }
 
         if (joint is HingeJoint hinge)
-            Hinge(hinge, at);
+            Hinge(hinge, step, at);
         else if (joint is ConfigurableJoint configurable)
-            Configurable(configurable, at);
+            Configurable(configurable, step, at);
     }
 
-    private static void Hinge(HingeJoint hinge, in Place at)
+    private static void Hinge(HingeJoint hinge, double step, in Place at)
     {
         HingeRules.Numbers(hinge, at);
         HingeRules.LimitsOrder(hinge, at);
         HingeRules.LimitsEqual(hinge, at);
         HingeRules.LimitsRange(hinge, at);
+        WrapRules.Hinge(hinge, step, at);
         HingeRules.MotorAndSpring(hinge, at);
         HingeRules.MotorForce(hinge, at);
     }
 
-    private static void Configurable(ConfigurableJoint joint, in Place at)
+    private static void Configurable(ConfigurableJoint joint, double step, in Place at)
     {
         ConfigurableRules.Numbers(joint, at);
         ConfigurableRules.SecondaryAxis(joint, at);
         ConfigurableRules.AngularXLimitsOrder(joint, at);
         ConfigurableRules.SymmetricLimits(joint, at);
         ConfigurableRules.AngularLimitsRange(joint, at);
+        WrapRules.Twist(joint, step, at);
         ConfigurableRules.SwingLimitBesideFree(joint, at);
         ConfigurableRules.LimitWithoutRoom(joint, at);
         ConfigurableRules.BounceOfSoftLimit(joint, at);

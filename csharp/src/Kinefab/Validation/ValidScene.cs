@@ -11,12 +11,22 @@ namespace Kinefab.Validation;
 [DebuggerDisplay("{ToString(),nq}")]
 public sealed partial class ValidScene
 {
+    private const int Nobody = -1;
+
     private readonly WorldTransform[] world;
+    private readonly int[] bodyOf;
 
     internal ValidScene(SceneDocument document)
     {
         Document = document;
         world = Validation.WorldTransform.Of(document);
+        bodyOf = new int[document.GameObjects.Count];
+        for (int i = 0; i < bodyOf.Length; i++)
+        {
+            // Parents stand earlier.
+            GameObject own = document.GameObjects[i];
+            bodyOf[i] = own.Body is not null ? i : own.Parent is int parent ? bodyOf[parent] : Nobody;
+        }
     }
 
     /// <summary>The scene as it stands in the file.</summary>
@@ -72,13 +82,7 @@ public sealed partial class ValidScene
     /// <param name="gameObject">Index of the GameObject.</param>
     /// <returns>Index of a GameObject, or null.</returns>
     /// <exception cref="ArgumentOutOfRangeException">There is no such GameObject.</exception>
-    public int? BodyOf(int gameObject)
-    {
-        int? at = gameObject;
-        while (at is int index && Body(index) is null)
-            at = Document.GameObjects[index].Parent;
-        return at;
-    }
+    public int? BodyOf(int gameObject) => bodyOf[Index(gameObject)] is var body && body != Nobody ? body : null;
 
     /// <summary>The joint that a coupling refers to.</summary>
     /// <param name="coordinate">One end of a coupling.</param>

@@ -17,7 +17,7 @@ namespace KinefabUnity
         /// <param name="findings">Gets what was found; null: it goes to the Console.</param>
         /// <returns>The root, which holds all objects; null where the file has errors.</returns>
         public static GameObject Instantiate(string path, Transform parent = null, KinefabSettings settings = null, List<KinefabFinding> findings = null) =>
-            Make(() => ValidScene.Load(path), Path.GetFileNameWithoutExtension(path), parent, settings, findings);
+            Make(() => File.ReadAllBytes(path), () => ValidScene.Load(path), Path.GetFileNameWithoutExtension(path), parent, settings, findings);
 
         /// <summary>As the other, of a file in memory.</summary>
         /// <param name="file">What the file holds; kept, and must not be changed any more.</param>
@@ -27,9 +27,9 @@ namespace KinefabUnity
         /// <param name="buffers">Gives the bytes of a buffer by its name, or null where there is none; null: there are no buffers.</param>
         /// <returns>The root, which holds all objects; null where the file has errors.</returns>
         public static GameObject Instantiate(byte[] file, Transform parent = null, KinefabSettings settings = null, List<KinefabFinding> findings = null, Func<string, byte[]> buffers = null) =>
-            Make(() => ValidScene.Load(file, buffers == null ? (Func<string, ReadOnlyMemory<byte>?>)null : uri => buffers(uri) is byte[] found ? found : (ReadOnlyMemory<byte>?)null), "Mechanism", parent, settings, findings);
+            Make(() => file, () => ValidScene.Load(file, buffers == null ? (Func<string, ReadOnlyMemory<byte>?>)null : uri => buffers(uri) is byte[] found ? found : (ReadOnlyMemory<byte>?)null), "Mechanism", parent, settings, findings);
 
-        private static GameObject Make(Func<ValidScene> load, string name, Transform parent, KinefabSettings settings, List<KinefabFinding> findings)
+        private static GameObject Make(Func<byte[]> text, Func<ValidScene> load, string name, Transform parent, KinefabSettings settings, List<KinefabFinding> findings)
         {
             var found = new List<KinefabFinding>();
             GameObject root = null;
@@ -38,7 +38,9 @@ namespace KinefabUnity
                 ValidScene scene = load();
                 KinefabFinding.Add(scene.Report, found);
                 KinefabFinding.AddLosses(scene.Document, found);
-                root = new SceneBuilder(scene, settings ?? new KinefabSettings(), found).Build(ObjectNames.Plain(name), parent);
+                var builder = new SceneBuilder(scene, settings ?? new KinefabSettings(), found);
+                root = builder.Build(ObjectNames.Plain(name), parent);
+                builder.Move(KinefabSource.Of(text()));
             }
             catch (SceneFormatException fault)
             {

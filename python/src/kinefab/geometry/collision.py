@@ -3,18 +3,19 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
 
 import numpy as np
 
 from ..diagnostics import Report
-from ..model import Collider, ColliderKind, Mesh, Node, Scene
+from ..model import Body, Collider, ColliderKind, Mesh, Node, Scene
 from ..options import ColliderShape, Ground
 from ..rigid import RigidGroups, is_dynamic
 from .contact.decomposition import convex_pieces
 from .contact.neighbours import meshes_near_others
 from .hulls import collision_hulls
+from .recognition import recognised
 
 SIDES = 32
 """Of the prism that stands for a cylinder: 124 triangles, half a percent of the radius off."""
@@ -58,11 +59,12 @@ class ConvexOnly:
 @dataclass(frozen=True, slots=True, eq=False)
 class CollisionMeshes:
     """hulls: by the number of the mesh that they enclose.  pieces: of hollow ones, convex, by the same.  cylinders: by
-    radius and length."""
+    radius and length.  shapes: of meshes that are a box, ball or capsule, by the same."""
 
     hulls: Mapping[int, Mesh]
     pieces: Mapping[int, tuple[Mesh, ...]]
     cylinders: Mapping[Cylinder, Mesh]
+    shapes: Mapping[int, Collider]
 
 
 def collision_meshes(
@@ -81,7 +83,8 @@ def collision_meshes(
     for body in asked.not_convex:
         report.approximated(f"collider {body}", "COLLIDER_NOT_CONVEX", body=body)
     hulls = collision_hulls(scene, asked.hulled, report)
-    return CollisionMeshes(hulls, _pieces(scene, groups, ground, asked, hulls, report), asked.cylinders)
+    pieces = _pieces(scene, groups, ground, asked, hulls, report)
+    return CollisionMeshes(hulls, pieces, asked.cylinders, asked.shapes.found)
 
 
 def hollow_pieces(
@@ -105,6 +108,34 @@ def _pieces(
     return convex_pieces(scene, asked.split, hulls, near, report)
 
 
+class Shapes:
+    """The boxes, balls and capsules among the meshes of a scene, each looked at once."""
+
+    def __init__(self, meshes: Sequence[Mesh]):
+        self._meshes = meshes
+        self._looked_at: set[int] = set()
+        self.found: dict[int, Collider] = {}
+
+    def is_one(self, body: Body) -> bool:
+        """Whether an engine's own shape stands for the body: not where its scale would make another of it."""
+        mesh = body.mesh
+        if mesh is None:
+            return False
+        if mesh not in self._looked_at:
+            self._looked_at.add(mesh)
+            if (shape := recognised(self._meshes[mesh])) is not None:
+                self.found[mesh] = shape
+        shape = self.found.get(mesh)
+        return shape is not None and keeps_its_shape(shape, body.scale)
+
+
+def keeps_its_shape(shape: Collider, scale: tuple[float, float, float]) -> bool:
+    """Whether a box, ball or capsule is one of the same kind where its mesh is scaled along the mesh's own axes."""
+    even = max(map(abs, scale)) <= min(map(abs, scale)) * (1.0 + 1e-9)
+    along_axes = bool((np.abs(shape.pose.rotation) == np.eye(3)).all())
+    return even or (shape.kind is ColliderKind.BOX and along_axes)
+
+
 def is_split(shape: ColliderShape, moves: bool) -> bool:
     """Whether a body of which no colliders are stated has convex pieces where it is hollow.  moves: whether forces move it."""
     return shape is ColliderShape.DECOMPOSE or (shape is ColliderShape.AUTO and moves)
@@ -114,6 +145,7 @@ def is_split(shape: ColliderShape, moves: bool) -> bool:
 class _Asked:
     """hulled, split: meshes, each with its body's name.  not_convex: bodies that are asked to be their true mesh and cannot."""
 
+    shapes: Shapes
     hulled: list[tuple[int, str]] = field(default_factory=list[tuple[int, str]])
     split: list[tuple[int, str]] = field(default_factory=list[tuple[int, str]])
     cylinders: dict[Cylinder, Mesh] = field(default_factory=dict[Cylinder, Mesh])
@@ -121,7 +153,7 @@ class _Asked:
 
     @classmethod
     def of(cls, scene: Scene, groups: RigidGroups, shape: ColliderShape, convex: ConvexOnly) -> _Asked:
-        asked = cls()
+        asked = cls(Shapes(scene.meshes))
         for i, node in enumerate(scene.nodes):
             moves = convex.on(i, scene, groups)
             if node.colliders is None:
@@ -131,7 +163,10 @@ class _Asked:
         return asked
 
     def add_bodies(self, node: Node, shape: ColliderShape, moves: bool) -> None:
-        own = [(b.mesh, f"{node.id}/{b.name}") for b in node.bodies if b.mesh is not None]
+        bodies = node.bodies
+        if shape is ColliderShape.AUTO:
+            bodies = [body for body in bodies if not self.shapes.is_one(body)]
+        own = [(b.mesh, f"{node.id}/{b.name}") for b in bodies if b.mesh is not None]
         if shape in (ColliderShape.HULL, ColliderShape.DECOMPOSE) or (
             moves and shape in (ColliderShape.MESH, ColliderShape.AUTO)
         ):

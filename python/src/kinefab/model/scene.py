@@ -61,6 +61,8 @@ class Scene:
     apart: pairs of bodies that pass through each other by the source's own rule, beside those that joints keep from colliding.
     identities: by the id of a node, joint, constraint or coupling, where ids are made of names that people change: what it is in
         the source whatever it is called there.  By it a prefab knows its objects again.
+    counted: ids that say nothing of the one that has them, as the source has no name for it and its reader counted: of nodes and
+        joints, of a node's bodies ``NODE/body:NAME``, of its colliders ``NODE/collider:NAME``.
     """
 
     nodes: list[Node] = field(default_factory=list[Node])
@@ -77,6 +79,7 @@ class Scene:
     extras: Mapping[str, object] = field(default_factory=dict[str, object])
     apart: list[Apart] = field(default_factory=list[Apart])
     identities: Mapping[str, str] = field(default_factory=dict[str, str])
+    counted: set[str] = field(default_factory=set[str])
 
     def __repr__(self) -> str:
         """In one line: all its parts and meshes are in it."""

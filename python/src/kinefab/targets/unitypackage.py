@@ -1,6 +1,6 @@
 """``NAME.unitypackage``: the prefab and its folder in one file, which a double click imports.
 
-A tar in gzip: for each asset a folder named by its guid with ``asset``, ``asset.meta`` and ``pathname``.  Entries are sorted and
+A tar in gzip: for each asset a folder, as a member of its own, named by its guid with ``asset``, ``asset.meta`` and ``pathname``.  Entries are sorted and
 bear no time, so that the same scene gives the same bytes.
 """
 
@@ -15,6 +15,7 @@ from .content import Content
 from .packing import GzipStream
 from .prefab.exporting import prefab_files
 from .prefab.files import AssetFile
+from .prefab.last import last_package
 from .prefab.names import UNSEEN, file_name
 from .prefab.options import PrefabOptions
 from .prefab.text.ids import guid
@@ -33,7 +34,9 @@ def write(content: Content, target: Path) -> tuple[Path, ...]:
     if not is_encodable(target.name):
         detail = "its name is not UTF-8"
         raise KinefabError([content.report.add("TARGET_UNWRITABLE", path=target, detail=detail)])
-    files = prefab_files(content, _plain(target.name[: -len(ENDING)]), options, "Scripts")
+    name = _plain(target.name[: -len(ENDING)])
+    last = last_package(target, guid(name, "prefab"))
+    files = prefab_files(content, name, options, "Scripts", last=last)
     content.refuse_losses()
     home = guid("project folder", HOME)
     entries = [AssetFile("", home, folder_meta(home)), *files]
@@ -62,6 +65,9 @@ def _add(packed: GzipStream, file: AssetFile) -> None:
     }
     if file.content is not None:
         entries = {"asset": list(file.content()), **entries}
+    folder = tarfile.TarInfo(file.guid)
+    folder.type, folder.mode = tarfile.DIRTYPE, 0o755
+    packed.write(folder.tobuf(tarfile.GNU_FORMAT))
     for name, pieces in entries.items():
         entry = tarfile.TarInfo(f"{file.guid}/{name}")
         entry.size = sum(map(len, pieces))

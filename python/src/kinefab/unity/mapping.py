@@ -180,7 +180,13 @@ class _Builder:
             ]
             if node.colliders is None:
                 shape = node.collision or self.colliders.shape
-                self.components[holder] += chosen_colliders(self.colliders, shape, body.mesh, mesh, convex)
+                for chosen in chosen_colliders(self.colliders, shape, body, mesh, convex, node.id, self.report):
+                    at = holder
+                    if chosen.pose is not None:
+                        id = free_id(f"{node.id}/collider:{body.name}", self.taken)
+                        placed = transform_of(chosen.pose, chosen.scale)
+                        at = self._object(GameObject(id, f"{body.name} collider", holder, transform=placed))
+                    self.components[at].append(chosen.component)
 
     def _add_colliders(self, index: int, parent: int) -> None:
         node = self.scene.nodes[index]

@@ -27,6 +27,31 @@ public sealed class StabilityAdviceTests
                     {"type": "ConfigurableJoint", "connectedBody": 0, "anchor": [0.243, -0.239, -0.263], "axis": [0.121, 0.91, -0.297], "yMotion": "Locked", "angularYMotion": "Locked", "angularZMotion": "Locked"}]}]}
         """;
 
+    [TestCase(false)]
+    [TestCase(true)]
+    public void HingeThatTurnsPastAHalfTurn_IsOfferedExtendedLimits(bool extended)
+    {
+        // A motor turns a bar, which leans by 20 degrees, from rest into its stop.
+        AdviceReport advice = StabilityAdvice.Of(AdviceScene.Parse($$$"""
+            {"format": "kinefab.scene", "version": "1.0", "gameObjects": [
+              {"id": "Ground", "name": "Ground", "components": [{"type": "Rigidbody", "useGravity": false, "isKinematic": true}]},
+              {"id": "Bar", "name": "Bar", "transform": {"localPosition": [0, 1, 0], "localRotation": [-0.174108137594, 0, 0, 0.984726538905]}, "components": [
+                {"type": "Rigidbody", "centerOfMass": [0, 0, 0.2], "inertiaTensor": [0.01, 0.01, 0.001]},
+                {"type": "HingeJoint", "connectedBody": 0, "autoConfigureConnectedAnchor": false, "connectedAnchor": [0, 1, 0], "useLimits": true,
+                 "limits": {"min": -180, "max": 180}, "extendedLimits": {{{(extended ? "true" : "false")}}}, "useMotor": true, "motor": {"targetVelocity": 720, "force": 500}}]}]}
+            """));
+        AdviceFinding[] motion = advice.Findings.Where(f => f.Diagnostic.Code == DiagnosticCodes.AdviceMotionDiffers).ToArray();
+        Assert.That(motion, Has.Length.EqualTo(extended ? 0 : 1));
+        Assert.That(motion.SelectMany(f => f.Tried).Count(t => t.Change.StartsWith("Use Extended Limits on HingeJoint", StringComparison.Ordinal)), Is.EqualTo(extended ? 0 : 1));
+        foreach (AdviceFinding finding in motion)
+        {
+            Assert.That(finding.Before.Angle, Is.GreaterThan(30));
+            Assert.That(finding.Best!.Change, Does.StartWith("Use Extended Limits"));
+            Assert.That(finding.Best.Score, Is.LessThan(1));
+            Assert.That(finding.Best.Work, Is.EqualTo(1));
+        }
+    }
+
     [Test]
     public void Lever_ClosedWithTheLeastRows_SagsAndIsCuredByLockingTheFreeOnes()
     {

@@ -44,7 +44,7 @@ internal sealed class Scenario
     public Pose Expected(int body, int k)
     {
         JsonElement values = _trace.GetProperty("bodies")[body];
-        double At(int i) => values[7 * k + i].GetDouble();
+        double At(int i) => values[7 * k + i].Exact();
         return new Pose(new Vector3d(At(0), At(1), At(2)), new Quaterniond(At(3), At(4), At(5), At(6)).Normalized());
     }
 
@@ -148,17 +148,17 @@ internal sealed class Scenario
         joint.ExtendedLimits = Flag(j, "extendedLimits", false);
         if (j.TryGetProperty("inverseMassScales", out JsonElement s))
         {
-            joint.InverseMassScale0 = s[0].GetDouble();
-            joint.InverseInertiaScale0 = s[1].GetDouble();
-            joint.InverseMassScale1 = s[2].GetDouble();
-            joint.InverseInertiaScale1 = s[3].GetDouble();
+            joint.InverseMassScale0 = s[0].Exact();
+            joint.InverseInertiaScale0 = s[1].Exact();
+            joint.InverseMassScale1 = s[2].Exact();
+            joint.InverseInertiaScale1 = s[3].Exact();
         }
 
         if (j.TryGetProperty("projection", out JsonElement p))
         {
             joint.Projection = true;
-            joint.ProjectionLinearTolerance = p.GetProperty("linear").GetDouble();
-            joint.ProjectionAngularTolerance = p.GetProperty("angular").GetDouble();
+            joint.ProjectionLinearTolerance = p.GetProperty("linear").Exact();
+            joint.ProjectionAngularTolerance = p.GetProperty("angular").Exact();
         }
 
         return joint;
@@ -176,7 +176,7 @@ internal sealed class Scenario
         if (j.TryGetProperty("motor", out JsonElement motor))
         {
             joint.MotorEnabled = true;
-            joint.MotorVelocity = motor.GetProperty("velocity").GetDouble();
+            joint.MotorVelocity = motor.GetProperty("velocity").Exact();
             joint.MotorForceLimit = Number(motor, "forceLimit", double.PositiveInfinity);
             joint.MotorFreeSpin = Flag(motor, "freeSpin", false);
         }
@@ -184,7 +184,7 @@ internal sealed class Scenario
         if (j.TryGetProperty("spring", out JsonElement spring))
         {
             joint.Spring = Drive(spring);
-            joint.SpringTarget = spring.GetProperty("target").GetDouble();
+            joint.SpringTarget = spring.GetProperty("target").Exact();
         }
 
         return joint;
@@ -207,7 +207,7 @@ internal sealed class Scenario
 
         if (j.TryGetProperty("linearLimit", out JsonElement linear))
         {
-            joint.LinearLimit = new LinearLimit { Value = linear.GetProperty("value").GetDouble(), Response = Response(linear) };
+            joint.LinearLimit = new LinearLimit { Value = linear.GetProperty("value").Exact(), Response = Response(linear) };
         }
 
         if (j.TryGetProperty("twistLimit", out JsonElement twist))
@@ -217,7 +217,7 @@ internal sealed class Scenario
 
         if (j.TryGetProperty("swingLimit", out JsonElement swing))
         {
-            joint.SwingLimit = new ConeLimit { Y = swing.GetProperty("y").GetDouble(), Z = swing.GetProperty("z").GetDouble(), Response = Response(swing) };
+            joint.SwingLimit = new ConeLimit { Y = swing.GetProperty("y").Exact(), Z = swing.GetProperty("z").Exact(), Response = Response(swing) };
         }
 
         if (j.TryGetProperty("drives", out JsonElement drives))
@@ -255,8 +255,8 @@ internal sealed class Scenario
 
     private static AngularLimit Angular(JsonElement limit) => new()
     {
-        Lower = limit.GetProperty("lower").GetDouble(),
-        Upper = limit.GetProperty("upper").GetDouble(),
+        Lower = limit.GetProperty("lower").Exact(),
+        Upper = limit.GetProperty("upper").Exact(),
         Response = Response(limit),
     };
 
@@ -272,14 +272,20 @@ internal sealed class Scenario
     private static Pose FramePose(JsonElement e) => new(Vector(e, "position", Vector3d.Zero), Quaternion(e, "rotation"));
 
     private static Vector3d Vector(JsonElement e, string name, Vector3d otherwise) => e.TryGetProperty(name, out JsonElement v)
-        ? new Vector3d(v[0].GetDouble(), v[1].GetDouble(), v[2].GetDouble())
+        ? new Vector3d(v[0].Exact(), v[1].Exact(), v[2].Exact())
         : otherwise;
 
     private static Quaterniond Quaternion(JsonElement e, string name) => e.TryGetProperty(name, out JsonElement v)
-        ? new Quaterniond(v[0].GetDouble(), v[1].GetDouble(), v[2].GetDouble(), v[3].GetDouble()).Normalized()
+        ? new Quaterniond(v[0].Exact(), v[1].Exact(), v[2].Exact(), v[3].Exact()).Normalized()
         : Quaterniond.Identity;
 
-    private static double Number(JsonElement e, string name, double otherwise) => e.TryGetProperty(name, out JsonElement v) ? v.GetDouble() : otherwise;
+    private static double Number(JsonElement e, string name, double otherwise) => e.TryGetProperty(name, out JsonElement v) ? v.Exact() : otherwise;
 
     private static bool Flag(JsonElement e, string name, bool otherwise) => e.TryGetProperty(name, out JsonElement v) ? v.GetBoolean() : otherwise;
+}
+
+/// <summary>Numbers as the library reads them: on old runtimes the framework's reader errs in the last place.</summary>
+file static class ExactNumbers
+{
+    public static double Exact(this JsonElement number) => Kinefab.Json.LongDecimal.Parse(System.Text.Encoding.ASCII.GetBytes(number.GetRawText()));
 }

@@ -210,7 +210,7 @@ public sealed class TokenizerTests
                 string value = json.Token switch
                 {
                     JsonToken.String or JsonToken.PropertyName => json.TryGetString(out string plain) ? plain : "half a surrogate",
-                    JsonToken.Number => Number(json.TryGetInt64(out long integer), integer, json.TryGetDouble(out double number), number),
+                    JsonToken.Number => Number(json.TryGetInt64(out long integer), integer, true, json.GetDouble()),
                     _ => "",
                 };
                 tokens.Add($"{json.TokenStart}-{json.Consumed} {json.Token} {value}");

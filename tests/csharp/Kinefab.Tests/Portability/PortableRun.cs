@@ -15,7 +15,7 @@ using Kinefab.Validation;
 namespace Kinefab.Tests.Portability;
 
 /// <summary>
-/// One calculation that every runtime must answer alike: poses over a run (metres, unit quaternions). Covers each PhysX
+/// One calculation that every runtime must answer alike: poses over a run (metres, unit quaternions) and a state's hash. Covers each PhysX
 /// scenario, the benchmarks and loops of the exact solver, exported scenes read from their files, and position kinematics.
 /// </summary>
 internal sealed class PortableRun
@@ -102,6 +102,8 @@ internal sealed class PortableRun
                     yield return number;
             }
         }
+
+        yield return BitConverter.Int64BitsToDouble((long)world.StateHash());
     }
 
     // The crank once round, as the hand lever turns it.

@@ -137,6 +137,8 @@ namespace UnityEngine
         /// <summary>Radians or metres; the stand-in's owner moves it.</summary>
         public ArticulationReducedSpace jointPosition { get; set; }
 
+        public ArticulationReducedSpace jointVelocity { get; set; }
+
         public int Woken { get; private set; }
 
         public void WakeUp() => Woken++;

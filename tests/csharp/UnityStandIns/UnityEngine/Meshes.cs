@@ -4,7 +4,7 @@ using UnityEngine.Rendering;
 
 namespace UnityEngine
 {
-    public struct Bounds
+    public partial struct Bounds
     {
         public Bounds(Vector3 center, Vector3 size) => (this.center, extents) = (center, size * 0.5f);
 
@@ -28,7 +28,7 @@ namespace UnityEngine
         }
     }
 
-    public sealed class Mesh : Object
+    public sealed partial class Mesh : Object
     {
         private readonly List<int[]> _submeshes = new List<int[]> { Array.Empty<int>() };
         private IndexFormat _indexFormat;

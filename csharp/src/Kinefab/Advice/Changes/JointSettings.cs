@@ -1,3 +1,4 @@
+using System;
 using System.Collections.Generic;
 using System.Linq;
 using Kinefab.Advice.Runs;
@@ -43,6 +44,20 @@ internal static class JointSettings
         }
 
         return parts.Count == 0 ? null : new Change("projection", parts);
+    }
+
+    /// <summary>Extended limits of every HingeJoint that turned past its stop and a half turn, where its angle wraps.</summary>
+    public static Change? ExtendedLimits(ValidScene scene, World world, SceneRun run)
+    {
+        ChangePart[] parts = world.Joints.Where(IsPassed)
+            .Select(j => new ChangePart(j.GameObject, "Use Extended Limits", Place(scene, j), new SceneEdit(EditText.Pointer(j) + "/extendedLimits", "true")))
+            .ToArray();
+        return parts.Length == 0 ? null : new Change("extendedLimits", parts);
+
+        bool IsPassed(WorldJoint joint) =>
+            Of(scene, joint) is HingeJoint { UseLimits: true, ExtendedLimits: false }
+            && run.Joints[joint.Index].Overshoot(Coordinate.Angle) > 0
+            && run.Joints[joint.Index].Coordinates[0].Any(angle => Math.Abs(angle) > 180);
     }
 
     /// <summary>Its component; null for a link's joint, which is part of an ArticulationBody and has none of a joint's settings.</summary>

@@ -30,7 +30,7 @@ internal sealed class Deviation
         return Array.ConvertAll(_island.Bodies, body =>
         {
             Quaterniond turn = _a.Rotations[k][body].Conjugate() * _b.Rotations[k][body];
-            double angle = 2 * Math.Atan2(turn.Vector.Length, Math.Abs(turn.W)) * (180 / Math.PI);
+            double angle = 2 * Trigonometry.Atan2(turn.Vector.Length, Math.Abs(turn.W)) * (180 / Math.PI);
             return new AdviceMeasure((_a.Centers[k][body] - _b.Centers[k][body] - fall).Length, angle);
         });
     }

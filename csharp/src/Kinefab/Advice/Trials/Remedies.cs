@@ -18,9 +18,10 @@ internal sealed class Remedies
     /// <param name="scene">As it stands.</param>
     /// <param name="world">Its world at the start.</param>
     /// <param name="islands">Of that world.</param>
+    /// <param name="run">The scene as Unity moves it.</param>
     /// <param name="mechanism">Null in a scene of too many joints to count rows in, as is its mobility.</param>
     /// <param name="mobility">The mechanism's.</param>
-    public Remedies(ValidScene scene, World world, IReadOnlyList<RunIsland> islands, Mechanism? mechanism, MobilityReport? mobility)
+    public Remedies(ValidScene scene, World world, IReadOnlyList<RunIsland> islands, SceneRun run, Mechanism? mechanism, MobilityReport? mobility)
     {
         if (mechanism is not null && mobility is MobilityReport counted)
         {
@@ -37,6 +38,7 @@ internal sealed class Remedies
         Change?[] iterations = Factors.Select(n => ProjectSettings.SolverIterations(scene, n)).ToArray();
         Change?[][] ladders =
         {
+            new[] { JointSettings.ExtendedLimits(scene, world, run) },
             new[] { ClosuresWhole },
             new[] { ClosuresMinimal },
             new[] { PreprocessingOff },

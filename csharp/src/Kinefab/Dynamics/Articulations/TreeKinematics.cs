@@ -116,7 +116,7 @@ internal static class TreeKinematics
     {
         Vector3d v = q.W < 0 ? -q.Vector : q.Vector;
         double s = v.Length;
-        return s > 0 ? v * (2 * Math.Atan2(s, Math.Abs(q.W)) / s) : Vector3d.Zero;
+        return s > 0 ? v * (2 * Trigonometry.Atan2(s, Math.Abs(q.W)) / s) : Vector3d.Zero;
     }
 
     private static Vector3d Along(int axis, double value) => new(axis == 0 ? value : 0, axis == 1 ? value : 0, axis == 2 ? value : 0);

@@ -60,8 +60,8 @@ internal static class BodyMotion
         }
 
         double half = dt * speed * 0.5;
-        Vector3d s = w * (Math.Sin(half) / speed);
-        var turn = new Quaterniond(s.X, s.Y, s.Z, Math.Cos(half));
+        Vector3d s = w * (Trigonometry.Sin(half) / speed);
+        var turn = new Quaterniond(s.X, s.Y, s.Z, Trigonometry.Cos(half));
         return new Pose(position, (turn * pose.Rotation).Normalized());
     }
 
@@ -97,6 +97,6 @@ internal static class BodyMotion
     {
         Vector3d v = q.W < 0 ? -q.Vector : q.Vector;
         double s = v.Length;
-        return s > 0 ? v * (2 * Math.Atan2(s, Math.Abs(q.W)) / s) : Vector3d.Zero;
+        return s > 0 ? v * (2 * Trigonometry.Atan2(s, Math.Abs(q.W)) / s) : Vector3d.Zero;
     }
 }

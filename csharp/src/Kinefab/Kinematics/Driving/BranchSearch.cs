@@ -1,6 +1,7 @@
-using System;
 using System.Collections.Generic;
+using System;
 using Kinefab.Joints;
+using Kinefab.Numerics;
 
 namespace Kinefab.Kinematics;
 
@@ -176,7 +177,7 @@ internal sealed class BranchSearch
             for (int i = 0; i < CirclePoints; i++)
             {
                 double angle = 2 * Math.PI * i / CirclePoints;
-                yield return new[] { Math.Cos(angle), Math.Sin(angle) };
+                yield return new[] { Trigonometry.Cos(angle), Trigonometry.Sin(angle) };
             }
 
             yield break;

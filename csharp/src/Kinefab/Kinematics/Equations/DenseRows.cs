@@ -9,6 +9,7 @@ internal sealed class DenseRows : IRowSink
     private readonly int[] _firsts;
     private readonly int _columns;
     private readonly List<double[]> _rows = new();
+    private readonly List<double> _errors = new();
 
     /// <summary>An empty matrix.</summary>
     /// <param name="firsts">For each body the column of its first freedom.</param>
@@ -22,6 +23,9 @@ internal sealed class DenseRows : IRowSink
     /// <summary>Number of rows.</summary>
     public int Count => _rows.Count;
 
+    /// <summary>What each row misses 0 by.</summary>
+    public IReadOnlyList<double> Errors => _errors;
+
     /// <inheritdoc/>
     public void Add(RowPath path, ReadOnlySpan<double> row, double c)
     {
@@ -32,6 +36,7 @@ internal sealed class DenseRows : IRowSink
         }
 
         _rows.Add(dense);
+        _errors.Add(c);
     }
 
     /// <summary>The rows of one block over its columns.</summary>

@@ -19,6 +19,11 @@ internal static class MechanismCoordinates
         {
             JointDefinition source = definition.Joints[j];
             int locked = MotionSubspace.LockedAxes(joints[j]);
+            if (locked == 0 && JointExtras.KeepsApart(source.Source))
+            {
+                continue; // it stands for no joint of the source: nobody asks how far it is
+            }
+
             for (int axis = 0; axis < 6; axis++)
             {
                 if ((locked & (1 << axis)) != 0)

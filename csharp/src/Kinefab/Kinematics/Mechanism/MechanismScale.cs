@@ -24,9 +24,12 @@ internal static class MechanismScale
 
     /// <summary>
     /// Root mean square distance of the joints from the middle of the joints of each of their bodies, times 2: about the
-    /// length of a link. 1 where no body has two joints at different places.
+    /// length of a link.
     /// </summary>
-    public static double LinkLength(JointModel[] joints, Pose[] poses)
+    /// <param name="joints">Between the bodies.</param>
+    /// <param name="poses">Of the bodies.</param>
+    /// <param name="otherwise">What it is where no body has two joints at different places.</param>
+    public static double LinkLength(JointModel[] joints, Pose[] poses, double otherwise = 1)
     {
         int n = poses.Length;
         var count = new int[n];
@@ -48,7 +51,7 @@ internal static class MechanismScale
                 links++;
             }
         });
-        return links == 0 ? 1 : 2 * Math.Sqrt(squares / links);
+        return links == 0 ? otherwise : 2 * Math.Sqrt(squares / links);
 
         void Each(Action<int, Vector3d> visit)
         {

@@ -16,6 +16,7 @@ internal sealed class BodyTwists
     private const double LeastMotion = 1e-6;
     private const int Width = 6;
 
+    private readonly double _leastMotion = LeastMotion;
     private readonly Linkage _linkage;
     private readonly NewtonSolver _newton;
     private readonly IndependentLinkages _parts;
@@ -32,6 +33,11 @@ internal sealed class BodyTwists
         _newton = newton;
         _parts = parts;
         _loops = loops;
+        foreach (LoopMobility loop in loops)
+        {
+            _leastMotion = Math.Max(_leastMotion, loop.Here.Noise);
+        }
+
         _places = new int[linkage.BodyCount];
         _ends = new int[linkage.BodyCount];
         _settled = new double[linkage.BodyCount][];
@@ -215,7 +221,7 @@ internal sealed class BodyTwists
     }
 
     // Of the columns from one on.
-    private static int RankOf(double[] triangle, int from)
+    private int RankOf(double[] triangle, int from)
     {
         var matrix = new double[Width, Width - from];
         for (int i = 0; i < Width; i++)
@@ -226,6 +232,6 @@ internal sealed class BodyTwists
             }
         }
 
-        return new SingularValues(matrix).Rank(LeastMotion);
+        return new SingularValues(matrix).Rank(_leastMotion);
     }
 }

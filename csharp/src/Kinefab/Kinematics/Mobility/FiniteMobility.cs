@@ -15,8 +15,12 @@ internal sealed class FiniteMobility
     private const int WalkSteps = 3;
     private const int MaxOtherWalks = 8;
     private const double WalkLength = 0.2;
-    private const double ProbeLength = 0.01;
     private const double Survives = 0.05;
+    private const double Whole = 0.9;
+
+    // Of a step along a velocity. What is left of one that is obstructed is no share of the way but what the closing error hides: where a
+    // steep coupling leaves little of the way to what is obstructed, a longer one tells.
+    private static readonly double[] ProbeLengths = { 0.01, 0.05, 0.2 };
 
     private readonly Linkage _linkage;
     private readonly NewtonSolver _newton;
@@ -48,15 +52,24 @@ internal sealed class FiniteMobility
 
         var space = new VelocitySpace(_linkage, _newton, _blocks, state);
         Away = space;
-        var survivors = new List<double[]>();
+        int count = 0;
         MechanismState moved = state.Clone();
-        foreach (double[] vector in space.Basis)
+        foreach (double length in ProbeLengths)
         {
-            cancellation.ThrowIfCancellationRequested();
-            survivors.Add(Probe(state, moved, vector));
+            var survivors = new List<double[]>();
+            foreach (double[] vector in space.Basis)
+            {
+                cancellation.ThrowIfCancellationRequested();
+                survivors.Add(Probe(state, moved, vector, length));
+            }
+
+            count = Rank(survivors, out bool isInDoubt);
+            if (!isInDoubt)
+            {
+                break;
+            }
         }
 
-        int count = Rank(survivors);
         LookAround(start, space, count, cancellation);
         return count;
     }
@@ -87,7 +100,7 @@ internal sealed class FiniteMobility
         foreach (double[] vector in space.Basis)
         {
             k++;
-            double weight = Math.Sin(12.9898 * k + 4.1414 * round);
+            double weight = Trigonometry.Sin(12.9898 * k + 4.1414 * round);
             for (int i = 0; i < step.Length; i++)
             {
                 step[i] += weight * vector[i];
@@ -115,13 +128,13 @@ internal sealed class FiniteMobility
     }
 
     // What is left of a velocity, as a share of how far it was followed.
-    private double[] Probe(MechanismState state, MechanismState moved, double[] vector)
+    private double[] Probe(MechanismState state, MechanismState moved, double[] vector, double length)
     {
         moved.CopyFrom(state);
         var step = new double[vector.Length];
         for (int i = 0; i < step.Length; i++)
         {
-            step[i] = ProbeLength * vector[i];
+            step[i] = length * vector[i];
         }
 
         _newton.Motion.Start(moved.Poses);
@@ -130,14 +143,15 @@ internal sealed class FiniteMobility
         var left = new double[step.Length];
         for (int i = 0; i < left.Length; i++)
         {
-            left[i] = (step[i] + _newton.Closing[i]) / ProbeLength;
+            left[i] = (step[i] + _newton.Closing[i]) / length;
         }
 
         return left;
     }
 
-    private static int Rank(List<double[]> survivors)
+    private static int Rank(List<double[]> survivors, out bool isInDoubt)
     {
+        isInDoubt = false;
         if (survivors.Count == 0)
         {
             return 0;
@@ -153,6 +167,9 @@ internal sealed class FiniteMobility
             }
         }
 
-        return new SingularValues(matrix).Rank(Survives);
+        var values = new SingularValues(matrix);
+        int rank = values.Rank(Survives);
+        isInDoubt = rank > values.Rank(Whole);
+        return rank;
     }
 }

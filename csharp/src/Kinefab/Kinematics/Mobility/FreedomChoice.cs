@@ -3,6 +3,7 @@ using System.Collections.Generic;
 using System.Linq;
 using System.Threading;
 using Kinefab.Document;
+using Kinefab.Numerics;
 
 namespace Kinefab.Kinematics;
 
@@ -15,21 +16,32 @@ internal sealed class FreedomChoice
     // Share of a coordinate's rate that earlier ones must leave it; the second where the first leaves freedoms without any.
     private static readonly double[] LeastShares = { 1e-3, 1e-8 };
 
+    private const int None = -2;
+
     private readonly Mechanism _mechanism;
-    private readonly NewtonSolver _newton;
     private readonly MechanismState _state;
-    private readonly FreedomBlocks _blocks;
     private readonly IndependentLinkages _parts;
+
+    // For each joint its unlocked coordinates, and those of them that turn.
+    private readonly int[] _free;
+    private readonly int[] _turns;
 
     private FreedomChoice(Mechanism mechanism)
     {
         _mechanism = mechanism;
-        _newton = new NewtonSolver(mechanism.Linkage);
+        var newton = new NewtonSolver(mechanism.Linkage);
         _state = mechanism.NewState();
-        _newton.Close(_state);
-        _newton.Motion.Start(_state.Poses);
-        _blocks = new FreedomBlocks(mechanism.Linkage, _newton.Firsts, _newton.Motion.Linear.Length);
-        _parts = new IndependentLinkages(mechanism.Linkage, _blocks, _newton.Firsts);
+        newton.Close(_state);
+        newton.Motion.Start(_state.Poses);
+        var blocks = new FreedomBlocks(mechanism.Linkage, newton.Firsts, newton.Motion.Linear.Length);
+        _parts = new IndependentLinkages(mechanism.Linkage, blocks, newton.Firsts);
+        _free = new int[mechanism.Joints.Length];
+        _turns = new int[mechanism.Joints.Length];
+        foreach (MechanismCoordinate coordinate in mechanism.Coordinates)
+        {
+            _free[coordinate.Joint] += coordinate.IsLocked ? 0 : 1;
+            _turns[coordinate.Joint] += coordinate.IsLocked || !coordinate.IsAngle ? 0 : 1;
+        }
     }
 
     /// <summary>Indices of coordinates, rising.</summary>
@@ -37,7 +49,7 @@ internal sealed class FreedomChoice
     {
         var choice = new FreedomChoice(mechanism);
         var chosen = new List<int>();
-        var tied = new List<int>[choice._parts.Count];
+        var tied = new List<int>?[choice._parts.Count];
         for (int i = 0; i < mechanism.Coordinates.Count; i++)
         {
             int block = choice.BlockOf(i);
@@ -49,29 +61,21 @@ internal sealed class FreedomChoice
                 (tied[block] ??= new List<int>()).Add(i);
         }
 
-        if (tied.Any(coordinates => coordinates is not null))
+        for (int b = 0; b < tied.Length; b++)
         {
-            var velocities = new VelocitySpace(mechanism.Linkage, choice._newton, choice._blocks, choice._state);
-            List<double[]>[] motions = choice.ByBlock(velocities.Basis);
-            for (int b = 0; b < tied.Length; b++)
-            {
-                cancellation.ThrowIfCancellationRequested();
-                if (tied[b] is not null)
-                    chosen.AddRange(choice.Independent(tied[b], motions[b], new LoopMobility(choice._parts.Make(b, choice._state.Poses), choice._state, cancellation).Finite));
-            }
+            cancellation.ThrowIfCancellationRequested();
+            if (tied[b] is List<int> coordinates)
+                chosen.AddRange(choice.Independent(coordinates, choice._parts.Make(b, choice._state.Poses), cancellation));
         }
 
         chosen.Sort();
         return chosen;
     }
 
-    private const int None = -2;
-
     // -1: no loop and no coupling touches it.
     private int BlockOf(int coordinate)
     {
-        int[] bodies = _mechanism.Rows.Joints[_mechanism.Coordinates[coordinate].Joint].Bodies;
-        foreach (int body in bodies)
+        foreach (int body in _mechanism.Rows.Joints[_mechanism.Coordinates[coordinate].Joint].Bodies)
         {
             if (_mechanism.Tree.Freedoms[body] > 0)
                 return _parts.BlockOf(body);
@@ -80,29 +84,19 @@ internal sealed class FreedomChoice
         return None;
     }
 
-    private List<double[]>[] ByBlock(IReadOnlyList<double[]> basis)
+    private List<int> Independent(List<int> coordinates, IndependentLinkage part, CancellationToken cancellation)
     {
-        var found = new List<double[]>[_parts.Count];
-        foreach (double[] motion in basis)
-        {
-            int block = _blocks.BlockOf[Array.FindIndex(motion, entry => entry != 0)];
-            (found[block] ??= new List<double[]>()).Add(motion);
-        }
-
-        return found;
-    }
-
-    private List<int> Independent(List<int> coordinates, List<double[]>? motions, int count)
-    {
+        var loop = new LoopMobility(part, _state, cancellation);
+        var newton = new NewtonSolver(part.Linkage);
+        Pose[] poses = part.StateOf(_state).Poses;
+        newton.Motion.Start(poses);
         var chosen = new List<int>();
-        if (motions is null)
-            return chosen;
         int[] order = coordinates.Where(i => !IsInABall(i)).OrderBy(Rank).ThenBy(i => i).ToArray();
-        double[][] rates = Array.ConvertAll(order, i => Rates(i, motions));
+        double[][] rates = Array.ConvertAll(order, i => Rates(i, Array.BinarySearch(part.Joints, _mechanism.Coordinates[i].Joint), newton, poses, loop.Here.Basis));
         var before = new List<double[]>();
         foreach (double least in LeastShares)
         {
-            for (int k = 0; k < order.Length && chosen.Count < count; k++)
+            for (int k = 0; k < order.Length && chosen.Count < loop.Finite; k++)
             {
                 if (chosen.Contains(order[k]))
                     continue;
@@ -125,21 +119,19 @@ internal sealed class FreedomChoice
         return chosen;
     }
 
-    private double[] Rates(int coordinate, List<double[]> motions)
+    private double[] Rates(int coordinate, int joint, NewtonSolver newton, Pose[] poses, IReadOnlyList<double[]> motions)
     {
         MechanismCoordinate own = _mechanism.Coordinates[coordinate];
-        Joints.JointModel joint = own.JointRows;
-        own.Evaluate(Linkage.PoseOf(joint.Body0, _state.Poses), Linkage.PoseOf(joint.Body1, _state.Poses), _state.Values[coordinate], out Joints.ConstraintRow row);
-        return motions.Select(motion => _newton.Equations.Rate(own.Joint, row, _state.Poses, motion)).ToArray();
+        Joints.JointModel rows = own.JointRows;
+        own.Evaluate(Linkage.PoseOf(rows.Body0, _state.Poses), Linkage.PoseOf(rows.Body1, _state.Poses), _state.Values[coordinate], out Joints.ConstraintRow row);
+        return motions.Select(motion => newton.Equations.Rate(joint, row, poses, motion)).ToArray();
     }
 
     // The angles of a ball in a loop are what is left to a rod that spins idly.
     private bool IsInABall(int coordinate)
     {
-        int joint = _mechanism.Coordinates[coordinate].Joint;
-        return _mechanism.Coordinates[coordinate].IsAngle
-            && _parts.Movers(BlockOf(coordinate)).Count > 1
-            && _mechanism.Coordinates.Count(c => c.Joint == joint && c.IsAngle && !c.IsLocked) == 3;
+        MechanismCoordinate own = _mechanism.Coordinates[coordinate];
+        return own.IsAngle && _turns[own.Joint] == 3 && _parts.Movers(BlockOf(coordinate)).Count > 1;
     }
 
     // What drives comes first, then hinges and slides that hold to what the block hangs on.
@@ -149,7 +141,7 @@ internal sealed class FreedomChoice
         Joints.JointModel joint = own.JointRows;
         int block = BlockOf(coordinate);
         bool inside = IsInside(joint.Body0) && IsInside(joint.Body1);
-        return (!IsDriven(own), _mechanism.Tree.ChildOf[own.Joint] < 0, _mechanism.Coordinates.Count(c => c.Joint == own.Joint && !c.IsLocked) > 1, inside);
+        return (!IsDriven(own), _mechanism.Tree.ChildOf[own.Joint] < 0, _free[own.Joint] > 1, inside);
 
         bool IsInside(int body) => _mechanism.Tree.Moving(body) is >= 0 and int moving && _parts.BlockOf(moving) == block;
     }

@@ -1,12 +1,13 @@
 using System;
 using System.Collections.Generic;
+using System.Threading;
 using Kinefab.Numerics;
 
 namespace Kinefab.Kinematics;
 
 /// <summary>
-/// Freedoms of a body, or of a leg of bodies between two others, that move nothing else: a rod's spin between its two balls. In a
-/// single loop: of bodies that turn in it as one.
+/// Freedoms of a body, or of a leg of bodies between two others, that move nothing else, which are its motions while all others stand
+/// still: a rod's spin between its two balls. In a single loop: of bodies that turn in it as one.
 /// </summary>
 internal sealed class IdleFreedoms
 {
@@ -38,18 +39,25 @@ internal sealed class IdleFreedoms
     /// <summary>Of one block's velocities; a free end of a chain is no loop, and not idle.</summary>
     /// <param name="loop">What the block can do.</param>
     /// <param name="movers">The bodies that have freedoms in it.</param>
-    public IEnumerable<IdleFreedom> Of(LoopMobility loop, IReadOnlyList<int> movers)
+    /// <param name="closed">The pose that it was counted at.</param>
+    /// <param name="cancellation">Ends the counting early, with an OperationCanceledException.</param>
+    public IEnumerable<IdleFreedom> Of(LoopMobility loop, IReadOnlyList<int> movers, MechanismState closed, CancellationToken cancellation)
     {
-        if (loop.Motions is null || loop.Finite < 2 || movers.Count < 2)
+        if (loop.Finite < 2 || movers.Count < 2)
         {
             yield break;
         }
 
-        var motions = new LoopMotions(loop, loop.Motions, movers, _rigid);
-        List<List<int>> legs = Legs(motions.Groups, _neighbours);
+        var velocities = new LoopMotions(loop, loop.Here, movers, _rigid);
+        List<List<int>> legs = Legs(velocities.Groups, _neighbours);
         if (legs.Count == 1)
         {
-            foreach ((List<int> turning, int count) in SingleLoop.TurningAlone(motions, _neighbours))
+            if (loop.Motions is null)
+            {
+                yield break;
+            }
+
+            foreach ((List<int> turning, int count) in SingleLoop.TurningAlone(new LoopMotions(loop, loop.Motions, movers, _rigid), _neighbours))
             {
                 yield return new IdleFreedom(GameObjects(turning), count);
             }
@@ -59,7 +67,10 @@ internal sealed class IdleFreedoms
 
         foreach (List<int> leg in legs)
         {
-            int count = motions.Count - RankWithout(leg, motions);
+            // What moves by itself seems to from the first; whether it does is asked with all else held.
+            int count = velocities.Count > RankWithout(leg, velocities)
+                ? new LoopMobility(loop.Part.Holding(body => leg.Contains(_rigid.Find(body))), closed, cancellation).Finite
+                : 0;
             if (count > 0)
             {
                 yield return new IdleFreedom(GameObjects(leg), count);
@@ -169,7 +180,7 @@ internal sealed class IdleFreedoms
             row += 6;
         }
 
-        return new SingularValues(twists).Rank(LeastMotion);
+        return new SingularValues(twists).Rank(Math.Max(LeastMotion, motions.Noise));
     }
 
     private List<int> GameObjects(List<int> leg)

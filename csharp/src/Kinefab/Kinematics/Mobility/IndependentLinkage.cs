@@ -30,6 +30,21 @@ internal sealed class IndependentLinkage
     /// <summary>Its place in a body list of its own, from the mechanism's.</summary>
     public int IndexOf(int body) => Array.BinarySearch(Bodies, body);
 
+    /// <summary>The same with all bodies held where they stand but some.</summary>
+    /// <param name="isMoving">Of one of the mechanism's bodies: whether it moves.</param>
+    public IndependentLinkage Holding(Func<int, bool> isMoving)
+    {
+        KinematicTree tree = Linkage.Tree;
+        bool[] isFixed = Array.ConvertAll(Bodies, body => !isMoving(body));
+        var isClosure = new bool[Joints.Length];
+        for (int j = 0; j < isClosure.Length; j++)
+        {
+            isClosure[j] = tree.ChildOf[j] < 0;
+        }
+
+        return new IndependentLinkage(new Linkage(isFixed, Linkage.Joints, isClosure, Linkage.Coordinates, Linkage.Couplings, Linkage.Origin, Linkage.Length), Bodies, Joints, _coordinates);
+    }
+
     /// <summary>The part's own copy of a state.</summary>
     public MechanismState StateOf(MechanismState whole)
     {

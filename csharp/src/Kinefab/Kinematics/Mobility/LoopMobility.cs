@@ -24,8 +24,14 @@ internal sealed class LoopMobility
         newton.Accepted = Math.Max(newton.Accepted, 4 * newton.Equations.Worst);
         var blocks = new FreedomBlocks(part.Linkage, newton.Firsts, newton.Motion.Linear.Length);
         Here = new VelocitySpace(part.Linkage, newton, blocks, state);
-        var finite = new FiniteMobility(part.Linkage, newton, blocks);
         Rank = newton.Motion.Linear.Length - Here.Freedoms;
+        if (NoisyRows.Keep(newton, Here, state))
+        {
+            (Finite, AtGeneralPose, Motions) = (Here.Freedoms, Here.Freedoms, Here);
+            return;
+        }
+
+        var finite = new FiniteMobility(part.Linkage, newton, blocks);
         Finite = finite.Count(state, cancellation);
         AtGeneralPose = finite.AtGeneralPose;
         VelocitySpace away = finite.Away ?? Here;

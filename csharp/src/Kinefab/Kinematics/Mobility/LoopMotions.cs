@@ -37,6 +37,9 @@ internal sealed class LoopMotions
     /// <summary>The groups that move, each by the body that stands for it, rising.</summary>
     public List<int> Groups { get; } = new();
 
+    /// <inheritdoc cref="VelocitySpace.Noise"/>
+    public double Noise => _space.Noise;
+
     /// <summary>Number of motions.</summary>
     public int Count => _space.Freedoms;
 

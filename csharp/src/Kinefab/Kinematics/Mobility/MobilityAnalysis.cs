@@ -39,7 +39,7 @@ public static class MobilityAnalysis
             progress?.Report((double)b / loops.Length);
             loops[b] = new LoopMobility(parts.Make(b, state.Poses), state, cancellation);
             loops[b].CountRedundant(redundant);
-            idle.AddRange(idleFreedoms.Of(loops[b], parts.Movers(b)));
+            idle.AddRange(idleFreedoms.Of(loops[b], parts.Movers(b), state, cancellation));
             gap = Math.Min(gap, loops[b].Here.Gap);
             general += loops[b].AtGeneralPose;
         }

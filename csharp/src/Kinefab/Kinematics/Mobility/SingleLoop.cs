@@ -32,13 +32,14 @@ internal static class SingleLoop
 
         List<int> ring = Ring(motions.Groups, neighbours);
         List<double[]>[] joints = JointTwists(ring, motions);
+        double shared = Math.Max(Shared, motions.Noise * motions.Noise);
         var known = new List<double[]>();
         for (int size = 1; size < ring.Count; size++)
         {
             for (int first = 0; first + size <= ring.Count; first++)
             {
                 int count = 0;
-                foreach (double[] twist in Common(joints[first], joints[first + size]))
+                foreach (double[] twist in Common(joints[first], joints[first + size], shared))
                 {
                     var motion = new double[6 * ring.Count];
                     for (int i = 0; i < 6 * size; i++)
@@ -115,18 +116,18 @@ internal static class SingleLoop
                 }
             }
 
-            joints[k] = Span(relative);
+            joints[k] = Span(relative, Math.Max(Moving, motions.Noise));
             before = after;
         }
 
         return joints;
     }
 
-    private static List<double[]> Span(double[,] rows)
+    private static List<double[]> Span(double[,] rows, double moving)
     {
         var values = new SingularValues(rows);
         var span = new List<double[]>();
-        for (int k = 0; k < 6 && values.Values[k] > Moving * values.Values[0]; k++)
+        for (int k = 0; k < 6 && values.Values[k] > moving * values.Values[0]; k++)
         {
             var vector = new double[6];
             for (int i = 0; i < 6; i++)
@@ -141,7 +142,7 @@ internal static class SingleLoop
     }
 
     // Unit twists that lie in both spans.
-    private static IEnumerable<double[]> Common(List<double[]> a, List<double[]> b)
+    private static IEnumerable<double[]> Common(List<double[]> a, List<double[]> b, double shared)
     {
         var cosines = new double[b.Count, a.Count];
         for (int i = 0; i < b.Count; i++)
@@ -153,7 +154,7 @@ internal static class SingleLoop
         }
 
         var values = new SingularValues(cosines);
-        for (int k = 0; k < a.Count && values.Values[k] * values.Values[k] > 1 - Shared; k++)
+        for (int k = 0; k < a.Count && values.Values[k] * values.Values[k] > 1 - shared; k++)
         {
             var twist = new double[6];
             for (int j = 0; j < a.Count; j++)

@@ -1,4 +1,5 @@
 using System;
+using Kinefab.Numerics;
 
 namespace Kinefab.Kinematics;
 
@@ -31,7 +32,7 @@ internal sealed class RankDeficiency
         for (int i = 0; i < step.Length; i++)
         {
             // Anything without a pattern.
-            step[i] = GeneralStep * Math.Sin(12.9898 * (i + 1));
+            step[i] = GeneralStep * Trigonometry.Sin(12.9898 * (i + 1));
         }
 
         newton.Motion.Move(state.Poses, step);

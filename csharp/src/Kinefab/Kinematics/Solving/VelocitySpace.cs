@@ -11,6 +11,8 @@ internal sealed class VelocitySpace
     private const double LeastShare = 1e-7;
     private const double LargestShare = 1e-3;
 
+    private const double NoiseOverGap = 10;
+
     private readonly int[] _firsts;
     private readonly Linkage _linkage;
     private readonly List<double[]> _basis = new();
@@ -30,11 +32,13 @@ internal sealed class VelocitySpace
         Linear = (Vector3d[])newton.Motion.Linear.Clone();
         Angular = (Vector3d[])newton.Motion.Angular.Clone();
 
+        // A row holds a unit force or moment: what is far smaller beside a link's length is a rounding, or noise, were it the largest.
+        double size = Math.Min(1, MechanismScale.LinkLength(linkage.Joints, state.Poses, linkage.Length) / linkage.Length);
         for (int b = 0; b < blocks.Columns.Count; b++)
         {
             IReadOnlyList<int> columns = blocks.Columns[b];
             var values = new SingularValues(Rows.Matrix(columns, b, blocks.BlockOf));
-            int rank = Rank(values.Values);
+            int rank = Rank(values.Values, size);
             for (int k = rank; k < columns.Count; k++)
             {
                 var vector = new double[n];
@@ -53,6 +57,9 @@ internal sealed class VelocitySpace
 
     /// <summary>Least ratio across the gap of any block.</summary>
     public double Gap { get; private set; } = double.PositiveInfinity;
+
+    /// <summary>What may be in a velocity without being in the motion, as a share: more than rounding where repeated rows do not quite repeat each other.</summary>
+    public double Noise => NoiseOverGap / Gap;
 
     /// <summary>Orthonormal velocities, each of one block. A freedom that no loop holds has its own, which stands in none.</summary>
     public IReadOnlyList<double[]> Basis => _basis;
@@ -87,21 +94,18 @@ internal sealed class VelocitySpace
         }
     }
 
-    private int Rank(double[] values)
+    // size: what a row's largest singular value is where none is lost; it stands before them, so that the border may lie below them all.
+    private int Rank(double[] values, double size)
     {
-        if (values.Length == 0 || values[0] == 0)
-        {
-            return 0;
-        }
-
+        double largest = values.Length == 0 ? size : Math.Max(values[0], size);
         int rank = values.Length;
-        double widest = -1;
-        for (int r = 1; r <= values.Length; r++)
+        double widest = 0;
+        for (int r = 0; r <= values.Length; r++)
         {
-            double above = values[r - 1] / values[0];
-            double below = r < values.Length ? values[r] / values[0] : 0;
-            double width = Math.Log(Math.Min(above, LargestShare)) - Math.Log(Math.Max(below, LeastShare));
-            if (width > widest)
+            double above = (r > 0 ? values[r - 1] : size) / largest;
+            double below = (r < values.Length ? values[r] : 0) / largest;
+            double width = above / Math.Max(below, LeastShare);
+            if (above > LeastShare && below < LargestShare && width > widest)
             {
                 widest = width;
                 rank = r;
@@ -110,7 +114,7 @@ internal sealed class VelocitySpace
 
         if (rank < values.Length)
         {
-            Gap = Math.Min(Gap, values[rank - 1] / Math.Max(values[rank], 1e-300));
+            Gap = Math.Min(Gap, (rank > 0 ? values[rank - 1] : size) / Math.Max(values[rank], 1e-300));
         }
 
         return rank;

@@ -93,7 +93,7 @@ internal static class LinkRules
     {
         double gap = (own.Pose.Point(Vector3d.Scale(own.Scale, link.AnchorPosition)) - above.Pose.Point(Vector3d.Scale(above.Scale, link.ParentAnchorPosition))).Length;
         Quaterniond turn = (own.Pose.Rotation * link.AnchorRotation.Normalized()).Conjugate() * (above.Pose.Rotation * link.ParentAnchorRotation.Normalized());
-        double angle = 2 * Math.Atan2(turn.Vector.Length, Math.Abs(turn.W)) * 180 / Math.PI;
+        double angle = 2 * Trigonometry.Atan2(turn.Vector.Length, Math.Abs(turn.W)) * 180 / Math.PI;
         if (gap > LeastGap || angle > LeastAngle)
             at.Report("parentAnchorPosition", DiagnosticCodes.LinkAnchorsApart, ("distance", Invariant.Text(gap)), ("angle", Invariant.Text(angle)));
     }

@@ -109,6 +109,7 @@ namespace KinefabUnity.Editing
             ProjectFindings.Add(builder, settings, findings);
             KinefabSource source = KinefabSource.Of(File.ReadAllBytes(FileUtil.GetPhysicalPath(ctx.assetPath)));
             source.Tell(findings);
+            builder.Move(source);
             var made = new List<(string Identifier, Object Object)>();
             Collect(made, "meshes/", identities.Meshes, builder.Looks.Meshes);
             Collect(made, "materials/", identities.Materials, builder.Looks.Materials);

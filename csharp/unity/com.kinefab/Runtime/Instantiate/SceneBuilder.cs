@@ -71,6 +71,19 @@ namespace KinefabUnity
             }
         }
 
+        /// <summary>Leaves the component that moves the whole, where the scene has a body: after <see cref="Build"/>.</summary>
+        internal void Move(KinefabSource source)
+        {
+            for (int i = 0; i < Objects.Length; i++)
+            {
+                if (scene.Body(i) != null)
+                {
+                    root.AddComponent<KinefabMechanism>().Bind(source, Array.ConvertAll(Objects, made => made.transform));
+                    return;
+                }
+            }
+        }
+
         /// <summary>Removes all that was made.</summary>
         internal void Clear()
         {

@@ -73,13 +73,15 @@ class Blocks:
 
 
 def edges_of(system: System) -> IntArray:
-    """Pairs of bodies that share a row, each once, shape (edges, 2); all pairs of a wider row."""
+    """Pairs of bodies that share a row, each once, shape (edges, 2); all pairs of a wider row.  What a row counts from inside
+    of one body stands still, and joins nothing."""
     low = np.minimum(system.body_a, system.body_b)
     high = np.maximum(system.body_a, system.body_b)
-    pairs = [np.stack([low, high], axis=1)[low != high]]
+    across = low != high
+    pairs = [np.stack([low, high], axis=1)[across]]
     many = np.flatnonzero(np.bincount(system.row, minlength=system.rows) > 1)
     if len(many):
-        atoms = np.flatnonzero(np.isin(system.row, many))
+        atoms = np.flatnonzero(np.isin(system.row, many) & across)
         by_row: dict[int, set[int]] = {}
         for atom in atoms:
             by_row.setdefault(int(system.row[atom]), set()).update((int(low[atom]), int(high[atom])))
@@ -141,8 +143,10 @@ def blocks_of(bodies: int, edges: IntArray) -> Blocks:
 
 
 def relative_system(system: System, blocks: Blocks) -> System:
-    """The same rows with every block's root at rest as body 0; body numbers stay."""
-    low, high = system.body_a, system.body_b
+    """The same rows with every block's root at rest as body 0; body numbers stay.  What a row that joins bodies counts from
+    inside of one stands still, in whichever block."""
+    still = (system.body_a == system.body_b) & system.joining()[system.row]
+    low, high = (np.where(still, 0, body) for body in (system.body_a, system.body_b))
     # a row's block is that of its bodies which are not the root: the largest, since the root's is older
     age = _block_age(blocks)
     key = np.full(system.rows, -1)

@@ -55,7 +55,9 @@ class Solver:
     def __init__(self, system: System):
         self.system = system
         n = system.bodies
-        a, b = system.body_a, system.body_b
+        # What a row counts from inside of one body stands still, and ties that body to nothing.
+        self._still = (system.body_a == system.body_b) & system.joining()[system.row]
+        a, b = (np.where(self._still, 0, body) for body in (system.body_a, system.body_b))
         first = np.zeros(system.rows, dtype=np.int64)
         np.maximum.at(first, system.row, np.maximum(a, b))
         ends = [(a, b)] + [(first[system.row], x) for x in (a, b)]
@@ -105,8 +107,10 @@ class Solver:
                 base = (place[self.row_part[s.row[atoms]]] * shape_rows + local_row[s.row[atoms]]) * width
                 end = len(lot) * shape_rows * width
 
-                def index(body: IntArray, base: IntArray = base, end: int = end) -> IntArray:
-                    moving = (self.part[body] >= 0)[:, None]
+                def index(
+                    body: IntArray, base: IntArray = base, end: int = end, still: BoolArray = self._still[atoms]
+                ) -> IntArray:
+                    moving = ((self.part[body] >= 0) & ~still)[:, None]
                     flat = (base + 6 * local_body[body])[:, None] + np.arange(6)
                     return np.where(moving, flat, end)
 

@@ -79,7 +79,10 @@ def body_twists(assembly: Assembly, singular: Mapping[int, Candidate]) -> list[A
     relative, blocks = assembly.relative, assembly.blocks
     own: list[Array] = [np.zeros((6, 0))] * relative.bodies
     for freedom in assembly.freedoms:
-        for body, rows in zip(freedom.bodies, freedom.basis.reshape(len(freedom.bodies), 6, -1)):
+        basis, noise = freedom.basis, freedom.noise
+        if noise > TOO_FEW:  # a link of a parallelogram whose axes are not quite parallel does not turn
+            basis = np.where(np.abs(basis) > noise, basis, 0.0)
+        for body, rows in zip(freedom.bodies, basis.reshape(len(freedom.bodies), 6, -1)):
             own[body] = rows
     for body, joint in singular.items():
         own[body] = _joint_twists(joint, relative.center[body], float(relative.length[body]))

@@ -6,11 +6,11 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from ...spatial import Array
+from ...spatial import Array, IntArray
 from ..assembly.assemble import Assembly
 from ..equations.solve import Solver
 from ..freedom.first_order import BlockFreedom, block_freedoms
-from ..freedom.motion import walked
+from ..freedom.motion import finite_freedoms, walked
 from ..freedom.rank import spans
 from .tied import TiedPart, tied_parts
 
@@ -37,49 +37,67 @@ class IdleFreedom:
 
 
 def idle_freedoms(assembly: Assembly) -> list[IdleFreedom]:
-    """Freedoms of a single body, or of a leg of bodies between two others, that move nothing else; in a single loop,
-    of bodies that turn in it as one."""
+    """Freedoms of a single body, or of a leg of bodies between two others, that move nothing else: motions from the
+    closed pose on while all others stand still; in a single loop, of bodies that turn in it as one."""
     neighbours: dict[int, set[int]] = {}
     low, high = assembly.system.body_a, assembly.system.body_b
     for i, j in set(zip(low.tolist(), high.tolist())):
         neighbours.setdefault(i, set()).add(j)
         neighbours.setdefault(j, set()).add(i)
     found: list[IdleFreedom] = []
-    for part in range(len(assembly.freedoms)):
-        freedom = _moving(assembly, part)
-        if freedom is None:
+    for part, (first, finite) in enumerate(zip(assembly.freedoms, assembly.finite)):
+        if finite.mobility < 2 or len(first.bodies) < 2:
             continue
-        for tied in tied_parts(assembly, freedom):
-            for bodies, count in _idle_in(assembly, tied, neighbours):
+        for number, tied in enumerate(tied_parts(assembly, first)):
+            for bodies, count in _idle_in(assembly, part, number, tied, neighbours):
                 nodes = sorted(n for body in bodies for n in assembly.nodes[body])
                 found.append(IdleFreedom(tuple(nodes), count))
     return found
 
 
 def _idle_in(
-    assembly: Assembly, tied: TiedPart, neighbours: dict[int, set[int]]
+    assembly: Assembly, part: int, number: int, tied: TiedPart, neighbours: dict[int, set[int]]
 ) -> list[tuple[list[int], int]]:
-    """Bodies of one part that move alone, and in how many ways."""
+    """Bodies of one part that move alone, and in how many ways.  number: of the part among the block's."""
     freedom = tied.freedom
     if freedom.mobility < 2 or len(freedom.bodies) < 2:
         return []
     legs = _legs(freedom.bodies.tolist(), neighbours)
     if len(legs) > 1:
-        counted = [(leg, _alone(freedom, leg)) for leg in legs]
+        # What moves by itself seems to from the first; whether it does is asked with all else held.
+        rows = assembly.freedoms[part].rows
+        counted = [(leg, _with_all_else_held(assembly, rows, leg)) for leg in legs if _alone(freedom, leg)]
         return [(leg, count) for leg, count in counted if count]
-    if tied.coupled:
-        return []  # a coupling between joints of the loop
-    return _turning_in_a_loop(assembly, freedom, _ring(tied.root, neighbours, legs[0]))
+    moving = None if tied.coupled else _moving(assembly, part)
+    if moving is None:
+        return []  # a coupling between joints of the loop, or nothing to be told
+    alone = tied_parts(assembly, moving)[number].freedom
+    return _turning_in_a_loop(assembly, alone, _ring(tied.root, neighbours, legs[0]))
+
+
+def _with_all_else_held(assembly: Assembly, of_block: IntArray, leg: list[int]) -> int:
+    """Freedoms of finite motion that a leg's bodies have while all others of their block stand still.
+
+    of_block: the block's rows; what else hangs on the leg is carried along."""
+    system, bodies = assembly.system, np.array(sorted(leg))
+    across = system.body_a != system.body_b  # inside a body all stands still, though a coupling counts from it
+    own = across & (np.isin(system.body_a, bodies) | np.isin(system.body_b, bodies))
+    rows = np.intersect1d(system.row[own], of_block)
+    there = across & np.isin(system.row, rows)
+    beside = {*system.body_a[there].tolist(), *system.body_b[there].tolist()} - set(leg)
+    if len(leg) == 1 and len(beside) < 2:
+        return 0  # the end of a chain
+    solver = Solver(system.part(np.flatnonzero(np.isin(system.row, rows)), rows, bodies))
+    start = solver.system.start()
+    return sum(f.mobility for f in finite_freedoms(solver, block_freedoms(solver, start), start))
 
 
 def _moving(assembly: Assembly, part: int) -> BlockFreedom | None:
-    """A block's velocities that are motions, or None where they are fewer than two or not to be told from others.
+    """A block's velocities that are motions, or None where they are not to be told from others.
 
     At a singular pose they are looked at some steps away, where no part seems to move alone that cannot.
     """
     first, finite = assembly.freedoms[part], assembly.finite[part]
-    if finite.mobility < 2 or len(first.bodies) < 2:
-        return None
     if finite.mobility == first.mobility:
         return first
     solver = Solver(assembly.solver.system.select(first.rows))
@@ -92,7 +110,12 @@ def _alone(freedom: BlockFreedom, leg: list[int]) -> int:
     place = {int(b): k for k, b in enumerate(freedom.bodies)}
     own = np.concatenate([freedom.basis[6 * place[b] : 6 * place[b] + 6] for b in leg])
     # columns are orthonormal: what is wholly in the leg's rows has nothing left for all others
-    return int(np.sum(np.linalg.svd(own, compute_uv=False) ** 2 > 1.0 - ALONE))
+    return int(np.sum(np.linalg.svd(own, compute_uv=False) ** 2 > 1.0 - _share(freedom)))
+
+
+def _share(freedom: BlockFreedom) -> float:
+    """``ALONE``, or what noise makes of it."""
+    return max(ALONE, freedom.noise**2)
 
 
 def _turning_in_a_loop(
@@ -105,15 +128,17 @@ def _turning_in_a_loop(
     still = np.zeros((6, freedom.mobility))
     of_body = dict(zip(freedom.bodies.tolist(), freedom.about_one_point(assembly.relative)))
     twists = [still, *(of_body[body] for body in ring), still]
-    joints = spans([after - before for before, after in zip(twists, twists[1:])], MOVING)
+    alone = _share(freedom)
+    cut = max(MOVING, freedom.noise)
+    joints = spans([after - before for before, after in zip(twists, twists[1:])], cut)
     found: list[tuple[list[int], int]] = []
     known = np.zeros((6 * len(ring), 0))
-    for first, last in _sharing(joints):
+    for first, last in _sharing(joints, alone):
         size = last - first
         if size == len(ring):
             continue  # all of the loop
         u, s, _ = np.linalg.svd(joints[first].T @ joints[last])
-        shared = joints[first] @ u[:, : int(np.sum(s**2 > 1.0 - ALONE))]
+        shared = joints[first] @ u[:, : int(np.sum(s**2 > 1.0 - alone))]
         motions = np.zeros((len(ring), 6, shared.shape[1]))
         motions[first:last] = shared / np.sqrt(size)
         new = motions.reshape(len(known), -1)
@@ -128,10 +153,10 @@ def _turning_in_a_loop(
     return found
 
 
-def _sharing(joints: list[Array]) -> list[tuple[int, int]]:
+def _sharing(joints: list[Array], alone: float) -> list[tuple[int, int]]:
     """Numbers of the joints that share a twist with each other, the nearest neighbours first.
 
-    joints: orthonormal twists of each, shape (6, n).  Hinges, of which a loop may have hundreds, share theirs only where
+    joints: orthonormal twists of each, shape (6, n).  alone: see ``_share``.  Hinges, of which a loop may have hundreds, share theirs only where
     it is the same, so they are sorted by it; the few joints with more freedoms are compared with all.
     """
     pairs: list[tuple[int, int]] = []
@@ -140,7 +165,7 @@ def _sharing(joints: list[Array]) -> list[tuple[int, int]]:
     order: list[int] = np.argsort(key, kind="stable").tolist()
     for at, here in enumerate(order):
         for there in order[at + 1 :]:
-            if key[there] - key[here] > NEAR:
+            if key[there] - key[here] > NEAR * np.sqrt(alone / ALONE):
                 break
             pairs.append((plain[here], plain[there]))
     for i, own in enumerate(joints):
@@ -158,7 +183,7 @@ def _sharing(joints: list[Array]) -> list[tuple[int, int]]:
             some = alike[at : at + MOST]
             a, b = (np.array([joints[pair[end]] for pair in some]) for end in (0, 1))
             largest = np.linalg.svd(np.swapaxes(a, 1, 2) @ b, compute_uv=False)[:, 0]
-            shared += [pair for pair, s in zip(some, largest.tolist()) if s**2 > 1.0 - ALONE]
+            shared += [pair for pair, s in zip(some, largest.tolist()) if s**2 > 1.0 - alone]
     return sorted(shared, key=lambda pair: (pair[1] - pair[0], pair[0]))
 
 

@@ -23,6 +23,9 @@ from .rank import factored, normalised, rank_of
 from .stacks import alike
 
 
+NOISE_OVER_GAP = 10.0
+
+
 @dataclass(slots=True, eq=False)
 class BlockFreedom:
     """bodies: shape (n,), the block's root left out.  rows: number of rows.
@@ -40,6 +43,12 @@ class BlockFreedom:
     @property
     def mobility(self) -> int:
         return self.basis.shape[1]
+
+    @property
+    def noise(self) -> float:
+        """What may be in a velocity without being in the motion, as a share of it: more than rounding where rows that repeat
+        others do not quite."""
+        return NOISE_OVER_GAP / self.gap
 
     def about_one_point(self, system: System) -> Array:
         """The same twists, all about the own point g of the first body, shape (n, 6, mobility).  system: the block's."""

@@ -16,6 +16,7 @@ from ...spatial import Array, IntArray
 from ..equations.solve import Solver
 from ..equations.system import State
 from .first_order import BlockFreedom, block_freedoms
+from .noise import moves_up_to_noise
 from .stacks import alike
 
 STEP = 1e-3
@@ -43,6 +44,11 @@ MOST_FURTHER = 5
 """Such steps, while what is left of some velocity is in doubt."""
 WALK = 3
 WALK_STEP = 0.05
+NOISY_GAP = 1e10
+"""A narrower gap between kept and repeated rows is none of rounding: the rows repeat each other as exactly as the CAD program
+solved them, and without a motion that uses the difference the mechanism would be locked."""
+NOISE = 1e-9
+"""The same of a residual at the start."""
 MOVES = 1e-6
 """Share of a velocity up to which a body stands still in it."""
 OPEN = 1e4
@@ -73,6 +79,9 @@ def finite_freedoms(solver: Solver, first_order: list[BlockFreedom], start: Stat
     if doubtful.any():
         draw, blocks = np.random.default_rng(11), dict(enumerate(first_order))
         floor = _floor(solver, start)
+        for part in np.flatnonzero(doubtful).tolist():
+            noisy = first_order[part].gap < NOISY_GAP or floor[part] > NOISE
+            doubtful[part] = not (noisy and moves_up_to_noise(solver.alone(part), first_order[part]))
         for _ in range(TRIALS):
             directions = _random_directions(blocks, np.flatnonzero(doubtful).tolist(), draw)
             moved = _trial(solver, blocks, start, directions, floor=floor) if directions else {}

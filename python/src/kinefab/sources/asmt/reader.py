@@ -126,7 +126,10 @@ class _Reader:
 
     def _unique(self, name: str) -> str:
         number = self.ids[name] = self.ids.get(name, 0) + 1
-        return name if number == 1 else f"{name}:{number}"
+        if number == 1:
+            return name
+        self.scene.counted.add(f"{name}:{number}")
+        return f"{name}:{number}"
 
     def _markers(self, holder: Item, path: str, node: int | None, base: Pose) -> None:
         """Markers by their path, in the node's frame; a marker's own axes are those that joints mean."""
@@ -156,7 +159,10 @@ class _Reader:
         return found
 
     def _statement(self, item: Item, ranges: dict[tuple[str, str, str], list[float]]) -> Statement | None:
-        name = item.value("Name") or f"{item.text}:{item.line}"
+        name = item.value("Name")
+        if not name:
+            name = f"{item.text}:{item.line}"
+            self.scene.counted.add(name)
         feature, where = f"joint {shown(name)}", self.place(item)
         unknown = f"its type '{shown(item.text)}' is not known, or not told apart from another"
         if not _named(item.text):

@@ -93,12 +93,12 @@ class Bodies:
             uvs = shape.kind == "plane" or (shape.mesh is not None and bool(self.meshes[shape.mesh].uvs))
             name = given or unique(seen, label)
             seen[name] = None
-            link.drawn.append(Part(name, shape, pose, self.looks.of(geom, uvs)))
+            link.drawn.append(Part(name, shape, pose, self.looks.of(geom, uvs), counted=not given))
         if touches:
             name = given or unique(felt, label)
             felt[name] = None
             material, group = self._material(geom), self._group(geom)
-            link.touched.append(Part(name, shape, pose, material=material, group=group))
+            link.touched.append(Part(name, shape, pose, material=material, group=group, counted=not given))
         if not (drawn or touches):
             self.report.dropped(feature, "MJCF_GEOM_UNSEEN", where)
 

@@ -25,7 +25,8 @@ STAND_IN_RADIUS = 0.05
 @dataclass(frozen=True, slots=True, eq=False)
 class Part:
     """A shape of a link.  pose: in the link's frame, source axes.  surfaces: of one that is drawn.
-    material, group: of one that is touched; density: kg/m^3, where its link weighs what it does."""
+    material, group: of one that is touched; density: kg/m^3, where its link weighs what it does.
+    counted: the source has no name for it."""
 
     name: str
     shape: Shape
@@ -34,6 +35,7 @@ class Part:
     material: PhysicsMaterial | None = None
     group: str = ""
     density: float = STAND_IN_DENSITY
+    counted: bool = False
 
 
 @dataclass(slots=True, eq=False)
@@ -108,6 +110,7 @@ def add_links(
         if own.helps is None and node.mass is None and not node.grounded and not any(body.weighed for body in node.bodies):
             light.append(len(scene.nodes))
         scene.nodes.append(node)
+        scene.counted |= _counted(own, together, node)
     node_of = {group: first_node + i for i, group in enumerate(members)}
     group_of = {node: group for group, node in node_of.items()}
     for group, node in node_of.items():
@@ -118,6 +121,16 @@ def add_links(
         beside = [scene.nodes[node_of[g]].mass for g in neighbours.get(group_of[index], ())]
         _stand_in(scene, index, [m.mass for m in beside if m is not None], report)
     return [carrier for carrier in carriers if carrier is not None]
+
+
+def _counted(own: Link, together: Sequence[Link], node: Node) -> set[str]:
+    """Ids of the shapes that have no name: see ``Scene.counted``."""
+    found: set[str] = set()
+    for link in together:
+        prefix = "" if link is own else f"{link.name}/"
+        for kind, parts in (("body", link.drawn), ("collider", link.touched)):
+            found |= {f"{node.id}/{kind}:{prefix}{part.name}" for part in parts if part.counted}
+    return found
 
 
 def _groups(count: int, fixed: Iterable[tuple[int, int]]) -> list[int]:

@@ -53,7 +53,8 @@ class Links:
     def _parts(self, link: Element, tag: str, scope: Scope, label: str) -> list[Part]:
         found: dict[str, Part] = {}
         for element in link.all(tag):
-            name = unique(found, element.attributes.get("name", "").strip() or tag)
+            given = element.attributes.get("name", "").strip()
+            name = unique(found, given or tag)
             feature = f"{tag} {name} of {label}"
             geometry = element.child("geometry")
             shaped = None if geometry is None else self._shape(geometry, feature, scope, tag)
@@ -74,7 +75,7 @@ class Links:
                 else None
             )
             density = _density(element, link) if tag == "collision" and _is_solid(link) else WATER
-            found[name] = Part(name, shape, pose @ turn, surfaces, material, density=density)
+            found[name] = Part(name, shape, pose @ turn, surfaces, material, density=density, counted=not given)
         return list(found.values())
 
     def _shape(self, geometry: Element, feature: str, scope: Scope, tag: str) -> tuple[Shape, Pose] | None:

@@ -102,7 +102,7 @@ def _fill(
             for found in guarded(module, "load", file, iges, tolerance, frozenset(done), seconds=seconds):
                 if isinstance(found, Tree) and shapes is None:
                     tree = found
-                    scene.nodes, placement, scales = scene_nodes(found, frame, path.name, iges, report)
+                    scene.nodes, placement, scales, scene.counted = scene_nodes(found, frame, path.name, iges, report)
                     shapes = Shapes(scene, found, placement, scales)
                 elif isinstance(found, Begun):
                     begun = found.shape

@@ -23,8 +23,8 @@ NUMBERED = re.compile(r"^(NAUO\d*|=>\[[\d:]*\](:\d+)?|\d*)$")
 
 def scene_nodes(
     tree: Tree, frame: SourceFrame, file: str, scaled: bool, report: Report
-) -> tuple[list[Node], Placement, Array]:
-    """The nodes, without bodies, and by how much each is larger than its shape.
+) -> tuple[list[Node], Placement, Array, set[str]]:
+    """The nodes, without bodies, by how much each is larger than its shape, and which ids are counted (``Scene.counted``).
 
     file: name of the source, for places.  scaled: whether placements may be so; OpenCASCADE reads the scale of an IGES file,
     and that of a STEP file's operator as its inverse.
@@ -36,12 +36,13 @@ def scene_nodes(
     used: Counter[str] = Counter()
     ids: list[str] = []
     nodes: list[Node] = []
+    counted: set[str] = set()
     for i, found in enumerate(tree.occurrences):
         name = _label(found)
         parent = found.parent
         path = name if parent is None else f"{ids[parent]}/{name}"
         used[path] += 1
-        if used[path] > 1:  # a writer that names occurrences after their product alone
+        if again := used[path] > 1:  # a writer that names occurrences after their product alone
             name = f"{name}:{used[path]}"
             path = name if parent is None else f"{ids[parent]}/{name}"
             while used[path]:
@@ -49,6 +50,8 @@ def scene_nodes(
                 path += "'"
             used[path] += 1
         ids.append(path)
+        if again or NUMBERED.match(found.name) or found.name == found.product:
+            counted.add(path)
         where = f"{file}#{path}"
         if placement.deviation[i] > SKEWED:
             report.add(
@@ -79,7 +82,7 @@ def scene_nodes(
                 where=where,
             )
         )
-    return nodes, placement, scales
+    return nodes, placement, scales, counted
 
 
 def _label(found: Occurrence) -> str:

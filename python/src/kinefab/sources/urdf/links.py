@@ -79,7 +79,8 @@ def _parts(
 ) -> list[Part]:
     found: dict[str, Part] = {}
     for element in link.all(tag):
-        label = unique(found, element.attributes.get("name", "").strip() or tag)
+        own = element.attributes.get("name", "").strip()
+        label = unique(found, own or tag)
         feature = f"{tag} {name}/{label}"
         before = len(report.diagnostics)
         shape, pose = _shape(element, feature, packages, report), origin(element)
@@ -87,7 +88,7 @@ def _parts(
         if report.forgive(before, feature, "SHAPE_UNREADABLE") or shape is None:
             continue
         surfaces = () if materials is None else materials.of(element, feature)
-        found[label] = Part(label, shape, pose, surfaces)
+        found[label] = Part(label, shape, pose, surfaces, counted=not own)
     return list(found.values())
 
 

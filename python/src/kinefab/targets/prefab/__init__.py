@@ -6,13 +6,15 @@ the files of a scene, ``folder`` puts them in place.
 
 from __future__ import annotations
 
+from functools import partial
 from pathlib import Path
 
 from ...diagnostics import KinefabError, is_encodable
 from ...replacing import one_at_a_time
 from ..content import Content
 from .exporting import prefab_files, script_files, script_folder
-from .folder import put_in_place
+from .folder import own_guids, put_in_place
+from .last import last_prefab
 from .names import UNSEEN, why_not_shared
 from .options import PrefabOptions
 from .project import common_folder, elsewhere_in_project, has_script, identity_of, lends_script
@@ -49,7 +51,7 @@ def _write(content: Content, target: Path, name: str, options: PrefabOptions) ->
     elsewhere = elsewhere_in_project(target)
     identity, lent = identity_of(target, elsewhere), lends_script(target, elsewhere, home)
     scripts = None if options.scripts and has_script(elsewhere) else home
-    files = prefab_files(content, name, options, scripts, identity)
+    files = prefab_files(content, name, options, scripts, identity, last_prefab(target, partial(own_guids, target)))
     if lent and not any(file.path == home for file in files):
         files += [script_folder(home), *script_files(home)]
     content.refuse_losses()

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator, Sequence
+from dataclasses import replace
 from functools import partial
 from itertools import islice
 
@@ -25,11 +26,13 @@ from .assets.physics_materials import PHYSICS_MATERIAL_ENDING, PHYSICS_MATERIAL_
 from .assets.tangents import with_tangents
 from .assets.textures import TextureFile, Textures, reference, shown, twins_of
 from .files import AssetFile
+from .last import GUID, NOTHING, LastExport
 from .losses import empty_colliders, tell_couplings, tell_losses, tell_names
 from .meshes import mesh_name, mesh_origin
 from .names import file_name, folded, most_bytes, unique
 from .objects.couplings import ASSEMBLY, FOLDER, SCRIPT, is_kept_by_script, script_guid
 from .objects.hierarchy import Hierarchy, References
+from .objects.matching import assets_of_before
 from .options import PrefabOptions
 from .text.dialects import Pipeline
 from .text.ids import guid
@@ -50,14 +53,20 @@ MESHES, MATERIALS, TEXTURES, PHYSICS, ANIMATIONS = (
 
 
 def prefab_files(
-    content: Content, name: str, options: PrefabOptions, scripts_folder: str | None, identity: str = ""
+    content: Content,
+    name: str,
+    options: PrefabOptions,
+    scripts_folder: str | None,
+    identity: str = "",
+    last: LastExport = NOTHING,
 ) -> list[AssetFile]:
     """Everything of the export, the prefab first, folders before what they hold.
 
     name: of the prefab, without ending.  scripts_folder: where a script goes, None where the project has it already.  identity: by what
-    guids are told from other exports', "" for the name.  The report gets what a prefab cannot say.
+    guids are told from other exports', "" for the name.  last: what this export takes the place of, whose numbers stay with what is
+    still there.  The report gets what a prefab cannot say.
     """
-    return _Export(content, name, options, scripts_folder, identity).files()
+    return _Export(content, name, options, scripts_folder, identity).files(last)
 
 
 class _Export:
@@ -75,7 +84,7 @@ class _Export:
         self.dialect = options.dialect
         self.found: list[AssetFile] = []
 
-    def files(self) -> list[AssetFile]:
+    def files(self, last: LastExport) -> list[AssetFile]:
         scene, report = self.scene, self.content.report
         tell_losses(scene, self.options, report)
         kept = [c for c in scene.couplings if self.options.scripts and is_kept_by_script(c, scene)]
@@ -86,6 +95,8 @@ class _Export:
         references = References(
             self._meshes(), self._materials(), self._physics_materials(), self._clips(hierarchy)
         )
+        if last:
+            references = self._know_again(last, hierarchy, references)
         hierarchy.add_components(references)
         if references.clips:
             hierarchy.add_clips(references.clips, plays=not _moved_by_forces(scene))
@@ -109,6 +120,30 @@ class _Export:
                 own = self._guid("folder", self.identity + folder[len(self.name) :])
                 head.append(AssetFile(folder, own, folder_meta(own)))
         return head + self.found
+
+    def _know_again(self, last: LastExport, hierarchy: Hierarchy, references: References) -> References:
+        """Numbers and guids of what the last export had too."""
+        report, found = self.content.report, hierarchy.know_again(last, self.content.scene.counted, references)
+        for id in dict.fromkeys(found.unsure):
+            report.approximated(f"identity of {id}", "TARGET_IDENTITY_UNSURE", object=id)
+        now = frozenset(file.guid for file in self.found)
+        renamed = assets_of_before(hierarchy.pairs(found), last, now)
+        if not renamed:
+            return references
+        self.found = [
+            replace(file, guid=old, meta=file.meta.replace(file.guid, old)) if (old := renamed.get(file.guid)) else file
+            for file in self.found
+        ]
+
+        def again(plain: Plain) -> Plain:
+            return Plain(GUID.sub(lambda match: f"guid: {renamed.get(match[1], match[1])}", plain))
+
+        return References(
+            {i: again(r) for i, r in references.meshes.items()},
+            {i: again(r) for i, r in references.materials.items()},
+            {i: again(r) for i, r in references.physics_materials.items()},
+            [again(r) for r in references.clips],
+        )
 
     def _guid(self, *identity: str) -> str:
         return guid(self.identity, *identity)

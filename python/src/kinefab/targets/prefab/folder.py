@@ -62,6 +62,12 @@ def put_in_place(
     return tuple(parent / file.path for file in files if file.content is not None)
 
 
+def own_guids(target: Path) -> frozenset[str]:
+    """Of all files that the last export of the target wrote."""
+    ours = read_manifest(target.with_name(target.stem)).ours
+    return frozenset(_guids(ours, target.parent).values()) - {""}
+
+
 def _known_by_guid(files: Sequence[AssetFile], parent: Path, ours: frozenset[str]) -> frozenset[str]:
     """What stands in an asset's place with the asset's own guid: a package brought it, or the manifest was lost on its way."""
     held = (file for file in files if file.content is not None and file.path not in ours)

@@ -134,8 +134,8 @@ def _is_empty(collider: Collider) -> bool:
 
 
 def tell_names(scene: UnityScene, names: list[str], report: Report) -> None:
-    """names: of the scene's objects in the prefab."""
+    """names: of the scene's objects in the prefab, whose root is called like the file."""
     for entry, name in zip(scene.gameObjects, names):
-        if entry.name != name:
+        if entry.name != name and entry.parent is not None:
             told = {"object": entry.id, "name": entry.name, "changed": name}
             report.approximated(f"name of {entry.id}", "TARGET_NAME_CHANGED", **told)

@@ -10,8 +10,8 @@ from typing import Any
 import numpy as np
 
 from ...diagnostics import Report
-from ...geometry.collision import CollisionMeshes, ConvexOnly
-from ...model import Collider, ColliderKind, Mesh
+from ...geometry.collision import CollisionMeshes, ConvexOnly, keeps_its_shape
+from ...model import Body, Collider, ColliderKind, Mesh
 from ...options import ColliderShape, Ground
 from ...spatial import Array, Pose
 from .. import frames
@@ -35,6 +35,7 @@ class Colliders:
     made: those meshes, to stand behind the scene's own.
     ground: what stands for it; as a body it is kinematic, where Unity takes meshes of every shape, unless it is a link.
     convex: which bodies take convex meshes only.
+    shape_of: for each mesh that is a box, ball or capsule that shape, in the mesh's frame.
     """
 
     shape: ColliderShape = ColliderShape.HULL
@@ -44,6 +45,7 @@ class Colliders:
     pieces_of: Mapping[int, Sequence[int]] = field(default_factory=dict[int, Sequence[int]])
     ground: Ground = Ground.WORLD
     convex: ConvexOnly = ConvexOnly()
+    shape_of: Mapping[int, Collider] = field(default_factory=dict[int, Collider])
 
     @classmethod
     def behind(
@@ -56,23 +58,7 @@ class Colliders:
         pieces_of = {mesh: [next(numbers) for _ in pieces] for mesh, pieces in made.pieces.items()}
         pieces = itertools.chain.from_iterable(made.pieces.values())
         meshes = (*made.hulls.values(), *made.cylinders.values(), *pieces)
-        return cls(shape, hull_of, cylinder_of, meshes, pieces_of, ground, convex)
-
-
-def chosen_colliders(
-    colliders: Colliders, shape: ColliderShape, index: int, mesh: Mesh, dynamic: bool
-) -> list[UnityCollider]:
-    """The colliders of a body whose source states none.  shape: asked for.  dynamic: the body has a Rigidbody that is
-    moved by forces, where Unity takes convex meshes only."""
-    if shape is ColliderShape.NONE:
-        return []
-    if shape in (ColliderShape.MESH, ColliderShape.AUTO) and not dynamic:
-        return [MeshCollider(mesh=index)]
-    if shape is not ColliderShape.BOX and shape is not ColliderShape.HULL and index in colliders.pieces_of:
-        return [MeshCollider(mesh=piece, convex=True) for piece in colliders.pieces_of[index]]
-    if shape is ColliderShape.BOX or index not in colliders.hull_of:
-        return [_box_about(mesh)]
-    return [MeshCollider(mesh=colliders.hull_of[index], convex=True)]
+        return cls(shape, hull_of, cylinder_of, meshes, pieces_of, ground, convex, made.shapes)
 
 
 def _box_about(mesh: Mesh, **common: Any) -> BoxCollider:
@@ -89,6 +75,35 @@ class PlacedCollider:
     component: UnityCollider
     pose: Pose | None = None
     scale: Vector3 = ONE
+
+
+def chosen_colliders(
+    colliders: Colliders, shape: ColliderShape, body: Body, mesh: Mesh, dynamic: bool, node: str, report: Report
+) -> list[PlacedCollider]:
+    """The colliders of a body whose source states none, in its mesh's frame.  shape: asked for.  mesh: the body's.
+    dynamic: the body has a Rigidbody that is moved by forces, where Unity takes convex meshes only.  node: id, for the report."""
+    index = body.mesh
+    assert index is not None
+    if shape is ColliderShape.NONE:
+        return []
+    own = colliders.shape_of.get(index) if shape is ColliderShape.AUTO else None
+    if own is not None and keeps_its_shape(own, body.scale) and (placed := _without_mesh(own, {})) is not None:
+        told = {"body": f"{node}/{body.name}", "shape": type(placed.component).__name__}
+        report.noted(f"collider {node}/{body.name}", "COLLIDER_RECOGNISED", **told)
+        return [placed]
+    return [PlacedCollider(component) for component in _meshes_of(colliders, shape, index, mesh, dynamic)]
+
+
+def _meshes_of(
+    colliders: Colliders, shape: ColliderShape, index: int, mesh: Mesh, dynamic: bool
+) -> list[UnityCollider]:
+    if shape in (ColliderShape.MESH, ColliderShape.AUTO) and not dynamic:
+        return [MeshCollider(mesh=index)]
+    if shape is not ColliderShape.BOX and shape is not ColliderShape.HULL and index in colliders.pieces_of:
+        return [MeshCollider(mesh=piece, convex=True) for piece in colliders.pieces_of[index]]
+    if shape is ColliderShape.BOX or index not in colliders.hull_of:
+        return [_box_about(mesh)]
+    return [MeshCollider(mesh=colliders.hull_of[index], convex=True)]
 
 
 def _is_flat(collider: Collider, dynamic: bool) -> bool:

@@ -20,7 +20,7 @@ from ..scene import JointDrive, SoftJointLimit, SoftJointLimitSpring
 from ..scene.joints.configurable_joint import MOTION_FIELDS, TWIST_RANGE
 from ..scene.vectors import quaternion4, vector3
 from .coordinates import CanonicalJoint, Coordinates
-from .limits import one_sided, report_outside
+from .limits import feature_of, may_wrap, one_sided, report_outside
 from .placement import Placement
 
 OPEN_TRAVEL = 100.0
@@ -146,6 +146,10 @@ def _twist_limits(w: _Writing, motions: list[Motion]) -> None:
         motions[RX] = Motion.FREE
         w.fields["extras"] = {TWIST_RANGE: sorted((sign * lower, sign * upper))}
         return
+    if may_wrap(w.joint, w.shape, lower, upper):
+        feature = feature_of(w.joint, "stop", w.shape.name_of[RX])
+        told = {"joint": w.joint.id, "angle": f"{max(-lower, upper):g}"}
+        w.report.approximated(feature, "JOINT_STOP_WRAPS", w.joint.where, **told)
     low, high = sorted((sign * lower, sign * upper))
     w.fields["lowAngularXLimit"] = SoftJointLimit(low, freedom.restitution)
     w.fields["highAngularXLimit"] = SoftJointLimit(high, freedom.restitution)

@@ -10,17 +10,10 @@ from ...model import RX, Joint, Motion
 from ..scene import JointLimits, JointMotor, JointSpring
 from ..scene.joints.joint import UNLIMITED_FORCE
 from .coordinates import CanonicalJoint, Coordinates
-from .limits import one_sided, report_outside
+from .limits import may_wrap, one_sided, report_outside
 
 TURN_ROUNDED = 1e-3
 """Degrees by which a whole turn, written as 6.2832 or so, may be past what Unity takes."""
-WRAP_STEPS = 2
-"""Physics steps that a hinge may need to turn back from beyond its stop."""
-STEP = 0.02
-"""Seconds, Unity's fixed time step where nobody changed it."""
-SLOWEST, FASTEST = 1.0, 7.0
-"""rad/s: least speed that a hinge is taken to meet its stop with, whatever its source states, and the speed where it
-states none, Unity's own default of maxAngularVelocity."""
 
 
 def fits_hinge(joint: CanonicalJoint) -> bool:
@@ -86,17 +79,4 @@ def _limits(joint: Joint, shape: CanonicalJoint, zero: float, report: Report) ->
         )
         return {}
     limits = JointLimits(low, high, freedom.restitution)
-    return {"useLimits": True, "limits": limits, "extendedLimits": _wraps(joint, shape, low, high)}
-
-
-def _wraps(joint: Joint, shape: CanonicalJoint, low: float, high: float) -> bool:
-    """Whether the angle, which wraps at half a turn without extendedLimits, may get there beyond a stop: PhysX then
-    reads it from the other side and turns the bodies on instead of back.  low, high: degrees."""
-    stated = joint.freedoms[shape.name_of[RX]].passive
-    speed = FASTEST
-    if stated is not None and math.isfinite(stated.speed):
-        speed = min(max(stated.speed, SLOWEST), FASTEST)
-    drive = shape.freedoms[RX].drive
-    if drive is not None and drive.motor:
-        speed = max(speed, abs(drive.target_velocity))
-    return max(-low, high) + WRAP_STEPS * STEP * math.degrees(speed) > 180.0
+    return {"useLimits": True, "limits": limits, "extendedLimits": may_wrap(joint, shape, low, high)}

@@ -16,6 +16,14 @@ GAP_ANGLE = 1e-4
 HALF_TURN = math.pi
 """Radians to either side of the exported pose that a ConfigurableJoint counts a twist by."""
 
+WRAP_STEPS = 2
+"""Physics steps that a joint may need to turn back from beyond its stop."""
+STEP = 0.02
+"""Seconds, Unity's fixed time step where nobody changed it."""
+SLOWEST, FASTEST = 1.0, 7.0
+"""rad/s: least speed that a joint is taken to meet its stop with, whatever its source states, and the speed where it
+states none, Unity's own default of maxAngularVelocity."""
+
 
 def feature_of(joint: Joint, what: str, freedom: int) -> str:
     """What the report calls one thing that a joint has, a feature beside the joint itself: ``friction of joint Knee``.
@@ -72,6 +80,19 @@ def one_sided(low: float, high: float, furthest: float) -> tuple[float, float]:
     if math.isinf(low):
         return min(-furthest, high), min(high, furthest)
     return max(low, -furthest), max(furthest, low)
+
+
+def may_wrap(joint: Joint, shape: CanonicalJoint, low: float, high: float) -> bool:
+    """Whether the twist, which wraps at half a turn without extendedLimits, may get there beyond a stop: PhysX then
+    reads it from the other side and turns the bodies on instead of back.  low, high: degrees from the exported pose."""
+    stated = joint.freedoms[shape.name_of[RX]].passive
+    speed = FASTEST
+    if stated is not None and math.isfinite(stated.speed):
+        speed = min(max(stated.speed, SLOWEST), FASTEST)
+    drive = shape.freedoms[RX].drive
+    if drive is not None and (drive.motor or drive.damping > 0.0):
+        speed = max(speed, abs(drive.target_velocity))
+    return max(-low, high) + WRAP_STEPS * STEP * math.degrees(speed) > 180.0
 
 
 def turns_as_travel(joint: Joint, shape: CanonicalJoint, coordinates: Coordinates) -> CanonicalJoint:

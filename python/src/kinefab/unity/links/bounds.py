@@ -28,6 +28,9 @@ def bounded(moving: Mapping[str, Any], stated: Joint, report: Report) -> dict[st
     speed = _speed([stated.freedoms[i].passive or Passive() for i in axes.values()])
     if speed is not None:
         found["maxJointVelocity"] = speed
+    if found["jointType"] == "Revolute":  # whose range PhysX holds within a whole turn to either side
+        for index in axes.values():
+            report.withdraw(feature_of(stated, "stop", index), "JOINT_STOP_WRAPS")
     for name, index in axes.items():
         freedom = stated.freedoms[index]
         if (passive := freedom.passive) is None:

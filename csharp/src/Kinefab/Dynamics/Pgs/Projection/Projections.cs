@@ -30,7 +30,7 @@ internal static class Projections
         Pose c = f0.Inverse() * f1;
         Vector3d p = Truncate(c.Position, joint.ProjectionLinearTolerance, out bool linear);
         var parts = new SwingTwist(c.Rotation);
-        double sine = Math.Sin(joint.ProjectionAngularTolerance / 2);
+        double sine = Trigonometry.Sin(joint.ProjectionAngularTolerance / 2);
         Quaterniond swing = parts.Swing;
         bool angular = false;
         // Above this sine the tolerance is all but half a turn and nothing is cut.
@@ -41,7 +41,7 @@ internal static class Projections
             if (length > sine)
             {
                 Vector3d v = near.Vector * (sine / length);
-                swing = new Quaterniond(v.X, v.Y, v.Z, Math.Cos(joint.ProjectionAngularTolerance / 2));
+                swing = new Quaterniond(v.X, v.Y, v.Z, Trigonometry.Cos(joint.ProjectionAngularTolerance / 2));
                 angular = true;
             }
         }
@@ -69,7 +69,7 @@ internal static class Projections
         bool twist = joint.Twist == AxisMotion.Locked;
         bool swing1 = joint.Swing1 == AxisMotion.Locked;
         bool swing2 = joint.Swing2 == AxisMotion.Locked;
-        double cosine = Math.Cos(joint.ProjectionAngularTolerance / 2);
+        double cosine = Trigonometry.Cos(joint.ProjectionAngularTolerance / 2);
         bool angular = false;
         Quaterniond q = c.Rotation;
         if (twist && swing1 && swing2)

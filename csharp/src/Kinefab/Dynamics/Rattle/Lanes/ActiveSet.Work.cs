@@ -99,10 +99,8 @@ internal sealed partial class ActiveSet<V>
     }
 
     // Whether the force is one in C alone and C changes as the row moves: not where a damper drives, nor of twist and swing
-    // drives, whose C is a sine of the angle by which the row turns, so that a force at its limit works by more than C says; nor of a
-    // slerp drive that may come to its limit, each row at its own; nor of a cone's spring, whose row is C's gradient on the cone alone.
+    // drives, whose C is a sine of the angle by which the row turns, so that a force at its limit works by more than C says.
     private bool HasPotential(in ScalarRow scalar) =>
-        scalar.Built.Hint == SolveHint.SlerpSpring
-            ? ((D6Joint)_batch.Shape.Blocks[scalar.Block].Joint!).DriveAngularVelocity == Vector3d.Zero && double.IsInfinity(scalar.Built.Maximum)
-        : scalar.Built.VelocityTarget == 0 && !scalar.Built.Has(RowFlags.Cone) && (!scalar.Built.Has(RowFlags.Angular | RowFlags.Drive) || _batch.Shape.Blocks[scalar.Block].Joint is RevoluteJoint);
+        scalar.Built.Hint == SolveHint.SlerpSpring ? ((D6Joint)_batch.Shape.Blocks[scalar.Block].Joint!).DriveAngularVelocity == Vector3d.Zero
+        : scalar.Built.VelocityTarget == 0 && (!scalar.Built.Has(RowFlags.Angular | RowFlags.Drive) || _batch.Shape.Blocks[scalar.Block].Joint is RevoluteJoint);
 }

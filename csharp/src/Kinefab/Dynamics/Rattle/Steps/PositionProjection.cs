@@ -274,7 +274,7 @@ internal sealed class PositionProjection
     private static Vector3d RotationVector(Quaterniond q)
     {
         double sine = q.Vector.Length;
-        double angle = 2 * Math.Atan2(sine, Math.Abs(q.W));
+        double angle = 2 * Trigonometry.Atan2(sine, Math.Abs(q.W));
         return sine > 0 ? q.Vector * ((q.W < 0 ? -angle : angle) / sine) : Vector3d.Zero;
     }
 
@@ -284,7 +284,7 @@ internal sealed class PositionProjection
         Vector3d normal = Vector3d.Cross(from, to);
         double sine = normal.Length;
         double cosine = Vector3d.Dot(from, to);
-        double angle = Math.Atan2(sine, cosine);
+        double angle = Trigonometry.Atan2(sine, cosine);
         return sine > 0 ? normal * (angle / sine) : cosine < 0 ? across * Math.PI : Vector3d.Zero;
     }
 

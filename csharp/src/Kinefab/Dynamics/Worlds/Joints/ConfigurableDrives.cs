@@ -44,7 +44,7 @@ internal static class ConfigurableDrives
     public static double[] Goals(D6Joint joint)
     {
         Quaterniond q = joint.DrivePose.Rotation;
-        return new[] { 2 * Math.Atan2(q.X, q.W), 2 * Math.Atan2(q.Y, q.W), 2 * Math.Atan2(q.Z, q.W) };
+        return new[] { 2 * Trigonometry.Atan2(q.X, q.W), 2 * Trigonometry.Atan2(q.Y, q.W), 2 * Trigonometry.Atan2(q.Z, q.W) };
     }
 
     /// <summary>
@@ -71,9 +71,9 @@ internal static class ConfigurableDrives
 
     private static Quaterniond Together(ReadOnlySpan<double> goals)
     {
-        (double sx, double cx) = (Math.Sin(goals[0] / 2), Math.Cos(goals[0] / 2));
-        (double sy, double cy) = (Math.Sin(goals[1] / 2), Math.Cos(goals[1] / 2));
-        (double sz, double cz) = (Math.Sin(goals[2] / 2), Math.Cos(goals[2] / 2));
+        (double sx, double cx) = (Trigonometry.Sin(goals[0] / 2), Trigonometry.Cos(goals[0] / 2));
+        (double sy, double cy) = (Trigonometry.Sin(goals[1] / 2), Trigonometry.Cos(goals[1] / 2));
+        (double sz, double cz) = (Trigonometry.Sin(goals[2] / 2), Trigonometry.Cos(goals[2] / 2));
         return new Quaterniond(sx * cy * cz, cx * sy * cz, cx * cy * sz, cx * cy * cz).Normalized();
     }
 

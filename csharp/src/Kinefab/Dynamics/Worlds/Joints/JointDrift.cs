@@ -60,7 +60,7 @@ public readonly struct JointDrift
         // A row's error over its axis is a tangent: of the angle where one swing is locked alone, else twice that of its half.
         int angular = joint.Layout().Locked >> (int)CoordinateAxis.AngularX;
         double tangent = Math.Sqrt(angle);
-        double turned = angular is 0b010 or 0b100 ? Math.Atan(tangent) : 2 * Math.Atan(tangent / 2);
+        double turned = angular is 0b010 or 0b100 ? Trigonometry.Atan(tangent) : 2 * Trigonometry.Atan(tangent / 2);
         return new JointDrift(Math.Sqrt(distance), turned * (180 / Math.PI));
     }
 

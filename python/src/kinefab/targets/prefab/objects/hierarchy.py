@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+import re
+from collections.abc import Collection, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
-from functools import lru_cache
+from functools import lru_cache, partial
 
 from ....unity.scene import (
     ArticulationBody,
@@ -20,6 +21,7 @@ from ....unity.scene import (
     Transform,
     UnityScene,
 )
+from ..last import Document, LastExport
 from ..names import sibling_names
 from ..text.dialects import Dialect
 from ..text.documents import COMPONENT, HEAD, version
@@ -33,8 +35,11 @@ from .articulations import articulation_fields
 from .bodies import collider, rigidbody
 from .couplings import coupling_fields
 from .joints import joint_class, joint_fields
+from .matching import Matched, NewComponent, NewObject, matched
 from .rendering import animation_fields, mesh_filter, mesh_renderer
 
+NUMBERED = re.compile(r"#\d+$")
+"""At the end of the id of one of several that are called alike."""
 ROOT = "kinefab:root"
 """What the prefab's own root is, where the scene has none that could be it."""
 
@@ -92,6 +97,7 @@ class Hierarchy:
             (o.parent + shift if o.parent is not None else 0 if self.own_root else None) for o in objects
         ]
         names = [name] * shift + [o.name for o in objects]
+        names[parents.index(None)] = name  # as an editor has it: the root is called like the file
         self._identities = [lasting(o.id, identities) for o in objects]
         ids = [ROOT] * shift + self._identities
         self.names = sibling_names(parents, names, ids)
@@ -119,12 +125,17 @@ class Hierarchy:
         objects = self.scene.gameObjects
         all_of_them = [(i, k, c) for i, entry in enumerate(objects) for k, c in enumerate(entry.components)]
         told = [(type(c).__name__, f"{self._identities[i]}{self._told(c)}") for i, _, c in all_of_them]
-        for (i, k, component), found in zip(all_of_them, self.ids.each(told)):
+        for (i, k, _), found in zip(all_of_them, self.ids.each(told)):
             self.component_ids[i, k] = found
+        self._list_bodies()
+
+    def _list_bodies(self) -> None:
+        for (i, k), number in self.component_ids.items():
+            component = self.scene.gameObjects[i].components[k]
             if isinstance(component, Rigidbody):
-                self.bodies[i] = found
+                self.bodies[i] = number
             elif isinstance(component, ArticulationBody):
-                self.links[i] = found
+                self.links[i] = number
 
     def _told(self, component: Component) -> str:
         """What a component is beside its object and its class: several joints or colliders may stand on one object."""
@@ -134,6 +145,80 @@ class Hierarchy:
         if isinstance(component, (Joint, Collider)):
             return f"->{lasting(component.id, self._given)}" if component.id else ""
         return ""
+
+    def know_again(self, last: LastExport, counted: Collection[str], references: References) -> Matched:
+        """Give what the last export had the numbers that it had there.  counted: see ``model.Scene``.  references: to this export's
+        assets, as it would call them."""
+        self._references = references
+        found = matched(last, self._new_objects(counted))
+        used = {number for pair in found.objects.values() for number in pair}
+        used |= {document.file_id for document in found.components.values()}
+        for i, placed in enumerate(self._placed):
+            ids = found.objects.get(i)
+            if ids is None:
+                ids = self._unused(last, used, placed, i)
+            placed.file_id, placed.transform_id = ids
+        for (i, k), number in list(self.component_ids.items()):
+            document = found.components.get((i + self._first, k))
+            component = self.scene.gameObjects[i].components[k]
+            kind, told = type(component).__name__, f"{self._identities[i]}{self._told(component)}"
+            self.component_ids[i, k] = self._free_of(last, used, kind, told, number) if document is None else document.file_id
+        self._list_bodies()
+        return found
+
+    def pairs(self, found: Matched) -> Iterator[tuple[str, Document]]:
+        """Of what refers to assets the new document and the old one."""
+        for (i, k), document in found.components.items():
+            component = self.scene.gameObjects[i - self._first].components[k]
+            if isinstance(component, (MeshFilter, MeshRenderer, MeshCollider)):
+                yield self._fields(component), document
+
+    def _fields(self, component: Component) -> str:
+        """A component's document without its head."""
+        return self._component(0, 0, component).split("\n", 2)[2]
+
+    def _unused(self, last: LastExport, used: set[int], placed: _Placed, index: int) -> tuple[int, int]:
+        """Numbers of an object that the last export had not."""
+        identity = ROOT if index < self._first else self._identities[index - self._first]
+        return (
+            self._free_of(last, used, "GameObject", identity, placed.file_id),
+            self._free_of(last, used, "Transform", identity, placed.transform_id),
+        )
+
+    def _free_of(self, last: LastExport, used: set[int], kind: str, identity: str, number: int) -> int:
+        """A number that the last export gave to nothing: what is new is not taken for what has gone."""
+        while number in last or number in used:
+            number = self.ids.new(kind, identity)
+        used.add(number)
+        return number
+
+    def _new_objects(self, counted: Collection[str]) -> list[NewObject]:
+        found: list[NewObject] = []
+        for i, placed in enumerate(self._placed):
+            own = self.scene.gameObjects[i - self._first] if i >= self._first else None
+            t = placed.transform
+            components: list[NewComponent] = []
+            for k, component in enumerate(own.components if own else ()):
+                if own is None or (i - self._first, k) in self.left_out:
+                    continue
+                nameless = own.id in counted or f"{own.id}/collider:{_id_of(component)}" in counted or _id_of(component) in counted
+                components.append(
+                    NewComponent(
+                        type(component).__name__,
+                        self.component_ids[i - self._first, k],
+                        isinstance(component, (Joint, Collider)) and (nameless or _is_counted(_id_of(component))),
+                        partial(self._fields, component),
+                    )
+                )
+            id = own.id if own else ROOT
+            place = (*t.localPosition, *t.localRotation, *t.localScale)
+            found.append(
+                NewObject(
+                    id, text(placed.name), placed.file_id, placed.transform_id, placed.parent,
+                    id in counted or NUMBERED.search(id) is not None, place, components,
+                )
+            )  # fmt: skip
+        return found
 
     def game_object_id(self, index: int) -> int:
         return self._placed[index + self._first].file_id
@@ -226,6 +311,15 @@ class Hierarchy:
             local(0 if parent is None else parent.transform_id),
             *order,
         )
+
+
+def _id_of(component: Component) -> str:
+    return component.id if isinstance(component, (Joint, Collider)) else ""
+
+
+def _is_counted(id: str) -> bool:
+    """Whether a joint or a collider has no name, or one that several have."""
+    return not id or NUMBERED.search(id) is not None
 
 
 @lru_cache(maxsize=64)

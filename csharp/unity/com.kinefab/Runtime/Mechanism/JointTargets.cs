@@ -1,0 +1,357 @@
+using System;
+using System.Collections.Generic;
+using Kinefab.Kinematics;
+using Kinefab.Numerics;
+using Kinefab.Validation;
+using UnityEngine;
+using Doc = Kinefab.Document;
+
+namespace KinefabUnity
+{
+    /// <summary>
+    /// The joints' own drives sent to where the freedoms stand. A drive that the joint has keeps its strength; one that it has not is
+    /// lent the same that <see cref="Kinefab.KinefabCoupling"/> lends. Given back as they were.
+    /// </summary>
+    internal sealed class JointTargets
+    {
+        // For each unit of mass or inertia, where the editor knows such drives (2022.2).
+        private const float Stiffness = 10000;
+        private const float Damping = 200;
+
+        private readonly List<Driven> _all = new List<Driven>();
+        private readonly List<Action> _back = new List<Action>();
+
+        public JointTargets(Mechanism mechanism, Transform[] parts, KinefabFreedom[] freedoms)
+        {
+            foreach (KinefabFreedom freedom in freedoms)
+            {
+                MechanismCoordinate coordinate = mechanism.Coordinates[freedom.Coordinate];
+                Transform part = coordinate.GameObject < parts.Length ? parts[coordinate.GameObject] : null;
+                if (part == null)
+                {
+                    continue;
+                }
+
+                Doc.GameObject from = mechanism.Scene.Document.GameObjects[coordinate.GameObject];
+                if (from.Components[coordinate.Component] is Doc.ArticulationBody)
+                {
+                    ArticulationBody link = part.GetComponent<ArticulationBody>();
+                    if (link != null)
+                    {
+                        Add(freedom.Coordinate, coordinate.Coordinate, link);
+                    }
+
+                    continue;
+                }
+
+                int number = 0;
+                for (int i = 0; i < coordinate.Component; i++)
+                {
+                    number += from.Components[i] is Doc.Joint ? 1 : 0;
+                }
+
+                Joint[] joints = part.GetComponents<Joint>();
+                if (number < joints.Length)
+                {
+                    double zero = from.Components[coordinate.Component] is Doc.ConfigurableJoint joint && coordinate.Coordinate <= Doc.Coordinate.Z
+                        ? Gap(mechanism.Scene, coordinate.GameObject, joint)[coordinate.Coordinate - Doc.Coordinate.X]
+                        : 0;
+                    Add(freedom.Coordinate, coordinate.Coordinate, joints[number], zero);
+                }
+            }
+        }
+
+        /// <summary>Sends every drive to where the state has its freedom.</summary>
+        public void Aim(MotionState motion)
+        {
+            for (int i = 0; i < _all.Count; i++)
+            {
+                Driven driven = _all[i];
+                double value = motion.State.Coordinate(driven.Index);
+                if (driven.Link != null)
+                {
+                    Aim(driven.Link, driven.Coordinate, value);
+                }
+                else if (driven.Joint is HingeJoint hinge)
+                {
+                    JointSpring spring = hinge.spring;
+                    // A hinge's angle is known within one turn.
+                    spring.targetPosition = (float)(hinge.useLimits ? value : value - 360 * Math.Round(value / 360));
+                    hinge.spring = spring;
+                    Wake(hinge);
+                }
+                else if (driven.Joint is ConfigurableJoint joint)
+                {
+                    Aim(driven, joint, value);
+                    Wake(joint);
+                }
+            }
+        }
+
+        /// <summary>Every drive as it was.</summary>
+        public void GiveBack()
+        {
+            foreach (Action back in _back)
+            {
+                back();
+            }
+
+            _back.Clear();
+            _all.Clear();
+        }
+
+        private void Add(int index, Doc.Coordinate coordinate, Joint joint, double zero)
+        {
+            if (joint is HingeJoint hinge)
+            {
+                JointSpring spring = hinge.spring;
+                bool isSprung = hinge.useSpring, isMotor = hinge.useMotor;
+                bool isLent = !isSprung || spring.spring <= 0;
+#if UNITY_2022_2_OR_NEWER
+                bool accelerates = hinge.useAcceleration;
+                hinge.useAcceleration = isLent || accelerates;
+#endif
+                hinge.useMotor = false;
+                hinge.spring = isLent ? new JointSpring { spring = Stiffness, damper = Damping } : spring;
+                hinge.useSpring = true;
+                _back.Add(() =>
+                {
+                    if (hinge == null)
+                    {
+                        return;
+                    }
+
+                    hinge.spring = spring;
+                    hinge.useSpring = isSprung;
+                    hinge.useMotor = isMotor;
+#if UNITY_2022_2_OR_NEWER
+                    hinge.useAcceleration = accelerates;
+#endif
+                });
+            }
+            else if (joint is ConfigurableJoint configurable)
+            {
+                Lend(configurable, coordinate);
+            }
+            else
+            {
+                return;
+            }
+
+            _all.Add(new Driven { Index = index, Coordinate = coordinate, Joint = joint, Zero = zero });
+        }
+
+        private void Lend(ConfigurableJoint joint, Doc.Coordinate coordinate)
+        {
+            Vector3 position = joint.targetPosition;
+            Quaternion rotation = joint.targetRotation;
+            RotationDriveMode mode = joint.rotationDriveMode;
+            JointDrive x = joint.xDrive, y = joint.yDrive, z = joint.zDrive, twist = joint.angularXDrive, swing = joint.angularYZDrive;
+            switch (coordinate)
+            {
+                case Doc.Coordinate.X:
+                    joint.xDrive = Own(x);
+                    break;
+                case Doc.Coordinate.Y:
+                    joint.yDrive = Own(y);
+                    break;
+                case Doc.Coordinate.Z:
+                    joint.zDrive = Own(z);
+                    break;
+                default:
+                    JointDrive slerp = joint.slerpDrive;
+                    joint.rotationDriveMode = RotationDriveMode.XYAndZ;
+                    if (coordinate == Doc.Coordinate.AngularX)
+                    {
+                        joint.angularXDrive = Own(mode == RotationDriveMode.Slerp ? slerp : twist);
+                    }
+                    else
+                    {
+                        joint.angularYZDrive = Own(mode == RotationDriveMode.Slerp ? slerp : swing);
+                    }
+
+                    break;
+            }
+
+            _back.Insert(0, () =>
+            {
+                if (joint == null)
+                {
+                    return;
+                }
+
+                joint.targetPosition = position;
+                joint.targetRotation = rotation;
+                joint.rotationDriveMode = mode;
+                joint.xDrive = x;
+                joint.yDrive = y;
+                joint.zDrive = z;
+                joint.angularXDrive = twist;
+                joint.angularYZDrive = swing;
+            });
+        }
+
+        private void Add(int index, Doc.Coordinate coordinate, ArticulationBody link)
+        {
+            ArticulationDrive x = link.xDrive, y = link.yDrive, z = link.zDrive;
+            _back.Add(() =>
+            {
+                if (link != null)
+                {
+                    link.xDrive = x;
+                    link.yDrive = y;
+                    link.zDrive = z;
+                }
+            });
+            if (coordinate == Doc.Coordinate.AngularY)
+            {
+                link.yDrive = Own(y);
+            }
+            else if (coordinate == Doc.Coordinate.AngularZ)
+            {
+                link.zDrive = Own(z);
+            }
+            else
+            {
+                link.xDrive = Own(x);
+            }
+
+            _all.Add(new Driven { Index = index, Coordinate = coordinate, Link = link });
+        }
+
+        private static JointDrive Own(JointDrive drive)
+        {
+            if (drive.positionSpring > 0 && drive.maximumForce > 0)
+            {
+                return drive;
+            }
+
+            drive.positionSpring = Stiffness;
+            drive.positionDamper = Damping;
+            drive.maximumForce = float.MaxValue;
+#if UNITY_2022_2_OR_NEWER
+            drive.useAcceleration = true;
+#endif
+            return drive;
+        }
+
+        private static ArticulationDrive Own(ArticulationDrive drive)
+        {
+            if (drive.stiffness > 0 && drive.forceLimit > 0)
+            {
+                return drive;
+            }
+
+            drive.stiffness = Stiffness;
+            drive.damping = Damping;
+            drive.forceLimit = float.MaxValue;
+#if UNITY_2022_2_OR_NEWER
+            drive.driveType = ArticulationDriveType.Acceleration;
+#endif
+            return drive;
+        }
+
+        private static void Aim(ArticulationBody link, Doc.Coordinate coordinate, double value)
+        {
+            if (coordinate == Doc.Coordinate.AngularY)
+            {
+                ArticulationDrive drive = link.yDrive;
+                drive.target = (float)value;
+                link.yDrive = drive;
+            }
+            else if (coordinate == Doc.Coordinate.AngularZ)
+            {
+                ArticulationDrive drive = link.zDrive;
+                drive.target = (float)value;
+                link.zDrive = drive;
+            }
+            else
+            {
+                ArticulationDrive drive = link.xDrive;
+                drive.target = (float)value;
+                link.xDrive = drive;
+            }
+
+            link.WakeUp();
+        }
+
+        // Unity drives the connected body against the own one, unless they are swapped.
+        private void Aim(Driven driven, ConfigurableJoint joint, double value)
+        {
+            double sense = joint.swapBodies ? 1 : -1;
+            if (driven.Coordinate > Doc.Coordinate.Z)
+            {
+                driven.Half = sense * value * Math.PI / 360;
+                joint.targetRotation = Goal(joint);
+                return;
+            }
+
+            Vector3 position = joint.targetPosition;
+            float at = (float)(sense * (value + driven.Zero)); // Unity counts from where the anchors meet
+            joint.targetPosition = new Vector3(
+                driven.Coordinate == Doc.Coordinate.X ? at : position.x,
+                driven.Coordinate == Doc.Coordinate.Y ? at : position.y,
+                driven.Coordinate == Doc.Coordinate.Z ? at : position.z);
+        }
+
+        // Where all freedoms of the joint together turn it: each angle is that of the sine about its axis and of w.
+        private Quaternion Goal(ConfigurableJoint joint)
+        {
+            double x = 0, y = 0, z = 0;
+            foreach (Driven driven in _all)
+            {
+                if (driven.Joint == joint)
+                {
+                    x += driven.Coordinate == Doc.Coordinate.AngularX ? driven.Half : 0;
+                    y += driven.Coordinate == Doc.Coordinate.AngularY ? driven.Half : 0;
+                    z += driven.Coordinate == Doc.Coordinate.AngularZ ? driven.Half : 0;
+                }
+            }
+
+            double a = Math.Cos(x), b = Math.Cos(y), c = Math.Cos(z);
+            var goal = new Quaterniond(Math.Sin(x) * b * c, a * Math.Sin(y) * c, a * b * Math.Sin(z), a * b * c);
+            return PartPlacement.Rotation(goal.Normalized());
+        }
+
+        // From the connected anchor to the own one at the exported pose, along the joint's axes.
+        private static Vector3d Gap(ValidScene scene, int gameObject, Doc.ConfigurableJoint joint)
+        {
+            if (joint.AutoConfigureConnectedAnchor)
+            {
+                return Vector3d.Zero;
+            }
+
+            WorldTransform own = scene.WorldTransform(gameObject);
+            Vector3d here = own.Pose.Point(Vector3d.Scale(own.Scale, joint.Anchor)), there = joint.ConnectedAnchor;
+            if (joint.ConnectedBody is int body)
+            {
+                WorldTransform other = scene.WorldTransform(body);
+                there = other.Pose.Point(Vector3d.Scale(other.Scale, joint.ConnectedAnchor));
+            }
+
+            Vector3d x = joint.Axis.Normalized(), z = Vector3d.Cross(x, joint.SecondaryAxis).Normalized(), y = Vector3d.Cross(z, x);
+            Vector3d gap = joint.ConfiguredInWorldSpace ? here - there : own.Pose.Rotation.InverseRotate(here - there);
+            return new Vector3d(Vector3d.Dot(gap, x), Vector3d.Dot(gap, y), Vector3d.Dot(gap, z));
+        }
+
+        private static void Wake(Joint joint)
+        {
+            // One that sleeps follows no drive.
+            Rigidbody body = joint.GetComponent<Rigidbody>();
+            if (body != null)
+            {
+                body.WakeUp();
+            }
+        }
+
+        private sealed class Driven
+        {
+            public int Index;
+            public Doc.Coordinate Coordinate;
+            public Joint Joint;
+            public ArticulationBody Link;
+            public double Zero;
+            public double Half;
+        }
+    }
+}

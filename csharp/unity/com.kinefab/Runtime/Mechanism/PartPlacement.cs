@@ -1,0 +1,316 @@
+using System;
+using System.Collections.Generic;
+using Kinefab;
+using Kinefab.Kinematics;
+using Kinefab.Numerics;
+using Kinefab.Validation;
+using UnityEngine;
+using Pose = Kinefab.Numerics.Pose;
+
+namespace KinefabUnity
+{
+    /// <summary>
+    /// Puts the parts where a state has them. Local poses against the parent that the file gives a part, in doubles until the end, so
+    /// that the root may stand, turn and be scaled as it likes; a part that somebody has hung elsewhere gets its place in the world.
+    /// A part that is destroyed is passed over: the mechanism goes on as if it were there.
+    /// </summary>
+    internal sealed class PartPlacement
+    {
+        private readonly MotionState _motion;
+        private readonly Transform _root;
+        private readonly Part[] _parts;
+        private readonly LinkPositions _links;
+        private readonly int[] _gameObjects;
+        private readonly Pose[] _poses;
+        private readonly List<KinefabCoupling> _couplings = new List<KinefabCoupling>();
+        private int _steppedMoves;
+        private bool _hasMoved;
+        private float _lastStep;
+
+        public PartPlacement(Transform root, Transform[] parts, MotionState motion)
+        {
+            _motion = motion;
+            _root = root;
+            Mechanism mechanism = motion.Mechanism;
+            ValidScene scene = mechanism.Scene;
+            var found = new List<Part>();
+            foreach (int i in mechanism.Bodies)
+            {
+                // The root stands where its user puts it.
+                if (i >= parts.Length || parts[i] == null || parts[i] == root)
+                {
+                    continue;
+                }
+
+                int above = scene.Document.GameObjects[i].Parent ?? -1;
+                Vector3d scale = above < 0 ? new Vector3d(1, 1, 1) : scene.WorldTransform(above).Scale;
+                found.Add(new Part
+                {
+                    GameObject = i,
+                    Above = above,
+                    Unscaled = new Vector3d(1 / scale.X, 1 / scale.Y, 1 / scale.Z),
+                    Transform = parts[i],
+                    Parent = above < 0 ? root : parts[above],
+                    Body = parts[i].GetComponent<Rigidbody>(),
+                    Link = parts[i].GetComponent<ArticulationBody>(),
+                    Center = scene.Body(i).CenterOfMass,
+                    Last = motion.State.Pose(i),
+                });
+            }
+
+            _parts = found.ToArray();
+            _gameObjects = Array.ConvertAll(_parts, part => part.GameObject);
+            _poses = new Pose[_parts.Length];
+            _links = new LinkPositions(parts, motion);
+            _steppedMoves = motion.Moves;
+        }
+
+        /// <summary>Physics moves some part when it is let go.</summary>
+        public bool HasBodies => Array.Exists(_parts, part => part.Body != null || part.Link != null);
+
+        /// <summary>Puts every part in place at once, or only those that physics does not move. Of an articulation that plays only physics moves links.</summary>
+        public void Place(bool bodiesToo)
+        {
+            for (int i = 0; i < _parts.Length; i++)
+            {
+                ref Part part = ref _parts[i];
+                if (part.Transform != null && (!IsInPhysics(part) || (bodiesToo && (part.Link == null || !Application.isPlaying))))
+                {
+                    Put(part, _motion.State);
+                }
+            }
+        }
+
+        /// <summary>Sends the Rigidbodies to where the state has them by the end of the physics step.</summary>
+        public void Step(float dt)
+        {
+            _hasMoved = _motion.Moves != _steppedMoves;
+            _lastStep = dt;
+            _steppedMoves = _motion.Moves;
+            _links.Step();
+            Quaternion turn = _root.rotation;
+            for (int i = 0; i < _parts.Length; i++)
+            {
+                ref Part part = ref _parts[i];
+                Pose pose = _motion.State.Pose(part.GameObject);
+                part.Before = part.Last;
+                part.Last = pose;
+                if (part.Transform == null || part.Body == null)
+                {
+                    continue;
+                }
+
+                if (IsInPhysics(part))
+                {
+                    part.Body.MovePosition(_root.TransformPoint(Vector(pose.Position)));
+                    part.Body.MoveRotation(turn * Rotation(pose.Rotation));
+                }
+                else
+                {
+                    Put(part, _motion.State);
+                }
+            }
+        }
+
+        /// <summary>The solver takes the bodies from physics.</summary>
+        public void TakeHold()
+        {
+            _links.TakeHold();
+            RestCouplings();
+            for (int i = 0; i < _parts.Length; i++)
+            {
+                ref Part part = ref _parts[i];
+                part.Last = _motion.State.Pose(part.GameObject);
+                part.Before = part.Last;
+                if (part.Body != null && !part.IsHeld)
+                {
+                    part.WasKinematic = part.Body.isKinematic;
+                    part.Body.isKinematic = true;
+                    part.IsHeld = true;
+                }
+            }
+
+            _steppedMoves = _motion.Moves;
+            _hasMoved = false;
+        }
+
+        /// <summary>Physics takes the bodies over, as fast as the solver last moved them.</summary>
+        public void LetGo()
+        {
+            _links.LetGo();
+            foreach (KinefabCoupling coupling in _couplings)
+            {
+                if (coupling != null)
+                {
+                    coupling.enabled = true;
+                }
+            }
+
+            _couplings.Clear();
+            for (int i = 0; i < _parts.Length; i++)
+            {
+                ref Part part = ref _parts[i];
+                if (part.Body == null || !part.IsHeld)
+                {
+                    continue;
+                }
+
+                part.IsHeld = false;
+                part.Body.isKinematic = part.WasKinematic;
+                if (!part.WasKinematic)
+                {
+                    SetVelocity(part);
+                }
+            }
+        }
+
+        /// <summary>
+        /// Makes the joints anew at the exported pose: PhysX counts a joint's angles and limits from where its body stood when the joint was
+        /// made, and a scene may have been stored with the mechanism moved. That a part that is switched off and on makes its joints anew
+        /// is what others saw in the editor, not seen here.
+        /// </summary>
+        public void RemakeJoints(MechanismState home)
+        {
+            var off = new List<GameObject>();
+            for (int i = 0; i < _parts.Length; i++)
+            {
+                Transform at = _parts[i].Transform;
+                if (at != null && at.gameObject.activeSelf && at.GetComponent<Joint>() != null)
+                {
+                    off.Add(at.gameObject);
+                }
+            }
+
+            if (off.Count == 0)
+            {
+                return;
+            }
+
+            foreach (GameObject part in off)
+            {
+                part.SetActive(false);
+            }
+
+            PutAll(home);
+            foreach (GameObject part in off)
+            {
+                part.SetActive(true);
+            }
+
+            PutAll(_motion.State);
+        }
+
+        /// <summary>Reads the state off the parts.</summary>
+        /// <param name="closes">Whether the joints are closed then, or left as open as physics has them.</param>
+        public void ReadBack(bool closes)
+        {
+            Quaterniond turn = Rotation(_root.rotation);
+            for (int i = 0; i < _parts.Length; i++)
+            {
+                Transform at = _parts[i].Transform;
+                _poses[i] = at == null
+                    ? _motion.State.Pose(_gameObjects[i])
+                    : new Pose(Vector(_root.InverseTransformPoint(at.position)), (turn.Conjugate() * Rotation(at.rotation)).Normalized());
+            }
+
+            _motion.Follow(_gameObjects, _poses, closes);
+        }
+
+        public static Vector3d Vector(Vector3 v) => new Vector3d(v.x, v.y, v.z);
+
+        public static Vector3 Vector(Vector3d v) => new Vector3((float)v.X, (float)v.Y, (float)v.Z);
+
+        public static Quaternion Rotation(Quaterniond q) => new Quaternion((float)q.X, (float)q.Y, (float)q.Z, (float)q.W);
+
+        private static Quaterniond Rotation(Quaternion q) => new Quaterniond(q.x, q.y, q.z, q.w).Normalized();
+
+        // A body that is switched off is in no physics step.
+        private static bool IsInPhysics(in Part part) =>
+            (part.Body != null || part.Link != null) && part.Transform.gameObject.activeInHierarchy;
+
+        // A coupling that follows would pull at what the solver holds.
+        private void RestCouplings()
+        {
+            foreach (KinefabCoupling coupling in _root.GetComponentsInChildren<KinefabCoupling>(true))
+            {
+                if (coupling.enabled)
+                {
+                    coupling.enabled = false;
+                    _couplings.Add(coupling);
+                }
+            }
+        }
+
+        private void PutAll(MechanismState state)
+        {
+            for (int i = 0; i < _parts.Length; i++)
+            {
+                if (_parts[i].Transform != null && _parts[i].Link == null)
+                {
+                    Put(_parts[i], state);
+                }
+            }
+        }
+
+        private void Put(in Part part, MechanismState state)
+        {
+            Pose pose = state.Pose(part.GameObject);
+            if (!ReferenceEquals(part.Transform.parent, part.Parent))
+            {
+                part.Transform.SetPositionAndRotation(_root.TransformPoint(Vector(pose.Position)), _root.rotation * Rotation(pose.Rotation));
+                return;
+            }
+
+            if (part.Above >= 0)
+            {
+                pose = state.Pose(part.Above).Inverse() * pose;
+                pose = new Pose(Vector3d.Scale(part.Unscaled, pose.Position), pose.Rotation);
+            }
+
+#if UNITY_2022_2_OR_NEWER
+            part.Transform.SetLocalPositionAndRotation(Vector(pose.Position), Rotation(pose.Rotation));
+#else
+            part.Transform.localPosition = Vector(pose.Position);
+            part.Transform.localRotation = Rotation(pose.Rotation);
+#endif
+        }
+
+        private void SetVelocity(in Part part)
+        {
+            Vector3d linear = Vector3d.Zero, angular = Vector3d.Zero;
+            if (_hasMoved && _lastStep > 0)
+            {
+                linear = (part.Last.Point(part.Center) - part.Before.Point(part.Center)) * (1 / _lastStep);
+                Quaterniond turn = part.Last.Rotation * part.Before.Rotation.Conjugate();
+                double sense = turn.W < 0 ? -1 : 1;
+                double sine = turn.Vector.Length;
+                double angle = 2 * Math.Atan2(sine, sense * turn.W);
+                angular = sine > 0 ? turn.Vector * (sense * angle / (sine * _lastStep)) : Vector3d.Zero;
+            }
+
+            Vector3 speed = _root.TransformVector(Vector(linear));
+#if UNITY_6000_0_OR_NEWER
+            part.Body.linearVelocity = speed;
+#else
+            part.Body.velocity = speed;
+#endif
+            part.Body.angularVelocity = _root.rotation * Vector(angular);
+        }
+
+        private struct Part
+        {
+            public int GameObject;
+            public int Above;
+            public Vector3d Unscaled;
+            public Transform Transform;
+            public Transform Parent;
+            public Rigidbody Body;
+            public ArticulationBody Link;
+            public Vector3d Center;
+            public Pose Last;
+            public Pose Before;
+            public bool IsHeld;
+            public bool WasKinematic;
+        }
+    }
+}

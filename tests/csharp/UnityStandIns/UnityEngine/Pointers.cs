@@ -1,0 +1,31 @@
+// The part of the Input System package that the dragger uses: KINEFAB_INPUT_SYSTEM stands for the package, as in the asmdef.
+#if ENABLE_INPUT_SYSTEM && KINEFAB_INPUT_SYSTEM
+namespace UnityEngine.InputSystem
+{
+    public sealed class Pointer
+    {
+        public static Pointer current { get; internal set; }
+
+        public Controls.Vector2Control position { get; } = new Controls.Vector2Control();
+
+        public Controls.ButtonControl press { get; } = new Controls.ButtonControl();
+    }
+}
+
+namespace UnityEngine.InputSystem.Controls
+{
+    public sealed class Vector2Control
+    {
+        internal Vector2 Value;
+
+        public Vector2 ReadValue() => Value;
+    }
+
+    public sealed class ButtonControl
+    {
+        public bool isPressed { get; internal set; }
+
+        public bool wasPressedThisFrame { get; internal set; }
+    }
+}
+#endif

@@ -1,0 +1,141 @@
+"""The count from a source's statements against the count from the joints that were written, on random mechanisms.
+
+KINEFAB_MOBILITY_MECHANISMS sets another number of them.
+"""
+
+import json
+import os
+import shutil
+import subprocess
+
+import kinefab
+import numpy as np
+import pytest
+from kinefab.analysis import analyse
+from random_mechanisms import mechanism
+
+TOOL = shutil.which("dotnet-kinefab")
+MECHANISMS = int(os.environ.get("KINEFAB_MOBILITY_MECHANISMS", "60"))
+needs_tool = pytest.mark.skipif(TOOL is None, reason="dotnet-kinefab is not on the PATH")
+
+
+def counted(folder) -> list[dict]:
+    """What ``dotnet kinefab mobility`` says of the scenes in a folder."""
+    scenes = sorted(str(path) for path in folder.glob("*.kinefab"))
+    done = subprocess.run([str(TOOL), "mobility", "--json", *scenes], capture_output=True, text=True)
+    said = json.loads(done.stdout)
+    return said if isinstance(said, list) else [said]
+
+
+def differences(said: dict) -> list[str]:
+    return [d["message"] for d in said["diagnostics"] if d["code"] == "MOBILITY_DIFFERS"]
+
+
+@needs_tool
+def test_both_count_the_same_in_random_mechanisms(tmp_path):
+    """But where the export says that a coupling could not be kept: then the joints do not move as the source does."""
+    lost = 0
+    for seed in range(MECHANISMS):
+        target = tmp_path / f"{seed:05d}.kinefab"
+        done = kinefab.export(mechanism(seed), target)
+        if any(d.code == "COUPLING_WITHOUT_JOINT" for d in done.report.diagnostics):
+            lost += 1
+            target.unlink()
+    assert lost <= MECHANISMS / 10
+    found = {said["file"]: differences(said) for said in counted(tmp_path)}
+    assert len(found) == MECHANISMS - lost
+    assert {file: said for file, said in found.items() if said} == {}
+
+
+def hinged(noise: float, *hinges: tuple[int, int, tuple[float, float, float]]) -> kinefab.Scene:
+    """Parts on the ground, part 0, and hinges (part, part, point) along z, points and axes off by about ``noise``."""
+    draw = np.random.default_rng(4)
+    scene = kinefab.Scene()
+    scene.add_part("base", grounded=True)
+    for i in range(max(b for _, b, _ in hinges)):
+        scene.add_part(f"part{i}", mass=1.0, translation=(0.3 * i, 0.1, 0.2))
+    for a, b, point in hinges:
+        axis = np.array([0.0, 0.0, 1.0]) + noise * draw.standard_normal(3)
+        scene.add_hinge(a, b, point=tuple(point + noise * draw.standard_normal(3)), axis=tuple(axis))
+    return scene
+
+
+def schmidt(noise: float) -> kinefab.Scene:
+    """Three discs, one behind the other, each joined to the next by three links alike: shafts out of line that turn alike."""
+    centers = np.array([[0.0, 0.0, 0.0], [0.05, 0.03, 0.1], [0.02, 0.06, 0.2]])
+    hinges = [(0, 1, centers[0]), (0, 3, centers[2])]
+    for k in range(2):
+        for i in range(3):
+            turn = 2 * np.pi * i / 3 + 0.3 * k
+            at = 0.2 * np.array([np.cos(turn), np.sin(turn), 0.0])
+            link = 4 + 3 * k + i
+            hinges += [(k + 1, link, centers[k] + at), (k + 2, link, centers[k + 1] + at)]
+    return hinged(noise, *hinges)
+
+
+COAXIAL = [(0, 1, (0, 0, 0)), (1, 2, (0, 0, 0.4)), (0, 2, (0, 0, 1))]
+FOUR_BAR = [(0, 1, (0, 0, 0)), (1, 2, (0.2, 0.5, 0)), (2, 3, (1.1, 0.7, 0)), (0, 3, (1, 0, 0))]
+
+
+@pytest.mark.parametrize("noise", [0, 1e-9, 1e-8, 1e-7, 1e-6, 1e-5])
+@pytest.mark.parametrize(
+    ("make", "mobility"),
+    [(lambda n: hinged(n, *COAXIAL), 2), (lambda n: hinged(n, *FOUR_BAR), 1), (schmidt, 1)],
+    ids=["three hinges on one axis", "four-bar", "Schmidt coupling"],
+)
+def test_hinges_as_exact_as_a_cad_program_solves_them_move(tmp_path, make, mobility, noise):
+    """Parallel axes that are off by a rounding, or by what a CAD program leaves, would lock the mechanism by the letter."""
+    done = kinefab.export(make(noise), tmp_path / "scene.kinefab")
+    assert json.loads(done.path.read_text())["analysis"]["mobility"] == mobility
+    if TOOL is not None:
+        (said,) = counted(tmp_path)
+        assert (said["mobility"]["mobility"], differences(said)) == (mobility, [])
+
+
+def spinning_legs() -> kinefab.Scene:
+    """A platform on six legs, each a universal joint that turns about the leg first, a slide and a ball."""
+    scene = kinefab.Scene()
+    base = scene.add_part("Base", grounded=True)
+    top = scene.add_part("Top", mass=3.0, translation=(0, 0.8, 0))
+    for i in range(6):
+        turn = np.radians(60 * (i // 2 * 2) + np.array([12 + 96 * (i % 2), 72 - 24 * (i % 2 == 0)]))
+        radius, height = np.array([0.55, 0.35]), [0.02, 0.78]
+        foot, head = np.stack([radius * np.cos(turn), height, radius * np.sin(turn)], axis=1)
+        along = (head - foot) / np.linalg.norm(head - foot)
+        across = np.cross(along, [0, 1, 0])
+        across /= np.linalg.norm(across)
+        low = scene.add_part(f"Cylinder{i}", mass=2.0, translation=tuple(foot + 0.2 * along))
+        high = scene.add_part(f"Rod{i}", mass=1.0, translation=tuple(head - 0.2 * along))
+        scene.add_joint("universal", base, low, point=tuple(foot), axis=tuple(across), secondary=tuple(along))
+        scene.add_slider(low, high, point=tuple(foot), axis=tuple(along))
+        scene.add_ball(high, top, point=tuple(head))
+    return scene
+
+
+def test_legs_that_spin_are_idle_though_the_pose_is_singular(tmp_path):
+    """From here each leg turns about itself while all else stands still; elsewhere the platform's motions need these
+    joints."""
+    scene = spinning_legs()
+    found = analyse(scene)
+    idle = [([found.source.nodes[n].name for n in one.nodes], one.count) for one in found.idle]
+    assert idle == [([f"Cylinder{i}", f"Rod{i}"], 1) for i in range(6)]
+    if TOOL is not None:
+        kinefab.export(scene, tmp_path / "scene.kinefab")
+        assert differences(counted(tmp_path)[0]) == []
+
+
+def test_a_coupling_that_counts_from_inside_of_one_body_ties_that_body_to_nothing():
+    """A slide that a hinge across locks: the coupling from it locks a cylindrical joint's slide, and what hangs on that is a
+    chain's end, not idle."""
+    scene = kinefab.Scene()
+    base, arm, tool, inner = (
+        scene.add_part(name, grounded=name == "Base", mass=None if name == "Base" else 1.0)
+        for name in ("Base", "Arm", "Tool", "Inner")
+    )
+    first = scene.add_joint("cylindrical", base, arm, point=(0, 0, 0), axis=(0, 0, 1))
+    scene.add_joint("cylindrical", arm, tool, point=(0, 0, 1), axis=(0, 0, 1))
+    held = scene.add_slider(base, inner, point=(0, 1, 0), axis=(0, 0, 1))
+    scene.add_hinge(base, inner, point=(0, 1, 0), axis=(1, 0, 0))
+    scene.add_coupling((first, "tx"), held, ratio=2.0)
+    found = analyse(scene)
+    assert (found.mobility, found.idle) == (3, [])

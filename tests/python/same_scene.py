@@ -12,6 +12,10 @@ import pytest
 from scipy.spatial.transform import Rotation
 
 CLOSE = 1e-9
+UNMOVING = {
+    *("extras", "secondaryAxis", "closure", "because", "id", "name"),
+    *("effort", "speed", "friction", "armature"),  # URDF asks for them, the others do without
+}
 
 
 def exported(path: Path, folder: Path) -> dict:
@@ -39,7 +43,7 @@ def plain(document: dict, without: set[str]) -> dict[str, object]:
 
 def stripped(component: dict, objects: list[dict]) -> dict[str, object]:
     """Without what no motion depends on: the source's own words, and where a slide's second axis points to."""
-    kept = {k: v for k, v in component.items() if k not in ("extras", "secondaryAxis", "closure", "because")}
+    kept = {k: v for k, v in component.items() if k not in UNMOVING}
     if "connectedBody" in kept:
         kept["connectedBody"] = objects[kept["connectedBody"]]["id"]
     return kept

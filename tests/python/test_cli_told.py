@@ -24,9 +24,9 @@ def run(*arguments: object):
 
 def test_the_summary_says_how_to_see_what_is_hidden(tmp_path: Path):
     """Eight efforts are dropped with a remark each, and remarks are not shown."""
-    told = run("export", ARM, "-o", tmp_path / "a.kinefab").stderr
+    told = run("export", ARM, "-o", tmp_path / "a.prefab", "--scripts").stderr
     assert "8 dropped. 'kinefab -v export' names each." in told
-    told = run("-v", "export", ARM, "-o", tmp_path / "a.kinefab").stderr
+    told = run("-v", "export", ARM, "-o", tmp_path / "a.prefab", "--scripts").stderr
     assert "JOINT_EFFORT_DROPPED" in told and "names each" not in told
     pytest.importorskip("coal")  # without it, that overlaps were not looked for is a remark
     told = run("export", FIXTURES / "lever" / "lever.bundle.json", "-o", tmp_path / "b.kinefab").stderr

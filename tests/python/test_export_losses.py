@@ -77,13 +77,50 @@ def test_a_joint_in_full_is_kept_and_its_effort_is_a_feature_of_its_own(tmp_path
     scene.add_joint(
         "revolute", None, scene.add_part("P", BOX), point=(0, 0, 0), axis=(1, 0, 0), name="J", rx=weak
     )
-    content, result = exported(scene, tmp_path)
+    content, kept = exported(scene, tmp_path)
+    shape = ("collider P/P", "kept")
+    assert [(o.feature, o.outcome.value) for o in kept.report.outcomes] == [shape, ("joint J", "kept")]
+    assert [(e["feature"], e["outcome"]) for e in content["report"]] == [shape, ("joint J", "kept")]
+    (hinge,) = [c for o in content["gameObjects"] for c in o.get("components", ()) if c["type"] == "HingeJoint"]
+    assert hinge["effort"] == 5 and content["version"] == "1.1"
     lost = ("largest effort of joint J", "dropped")
-    told = [o for o in result.report.outcomes if o.code != "COLLIDER_RECOGNISED"]
-    assert [(o.feature, o.outcome.value) for o in told] == [lost, ("joint J", "kept")]
-    listed = [(e["feature"], e["outcome"]) for e in content["report"]]
-    assert listed == [("collider P/P", "kept"), lost, ("joint J", "kept")]
-    assert told[0].message.startswith("Joint J states a largest effort (5) of rx")
+    result = kinefab.export(scene, tmp_path / "a.prefab")
+    assert [(o.feature, o.outcome.value) for o in result.report.outcomes] == [shape, lost, ("joint J", "kept")]
+    assert result.report.outcomes[1].message.startswith("Joint J states a largest effort (5) of rx")
+    by_scene = kinefab.export(kept.path, tmp_path / "b.prefab").report.outcomes
+    assert sorted((o.feature, o.outcome.value) for o in by_scene) == sorted([shape, lost, ("joint J", "kept")])
+
+
+def test_what_a_source_states_of_a_joint_comes_back_of_the_scene(tmp_path):
+    """Degrees a second in the file, radians in the model; a slide in metres; links are bounded as of the source."""
+    scene = kinefab.Scene()
+    turning = Passive(friction=0.2, armature=1.5e-7, effort=20.0, speed=0.5)
+    sliding = Passive(friction=3.0, speed=0.25)
+    base = scene.add_part("Base", BOX, grounded=True)
+    arm, carriage = (scene.add_part(name, BOX, translation=(0, i, 0)) for i, name in enumerate(("Arm", "Carriage")))
+    turn, slide = (Freedom(Motion.FREE, passive=passive) for passive in (turning, sliding))
+    scene.add_joint("revolute", base, arm, point=(0, 0, 0), axis=(1, 0, 0), name="Turn", rx=turn)
+    scene.add_joint("prismatic", base, carriage, point=(0, 1, 0), axis=(1, 0, 0), name="Slide", tx=slide)
+    content, result = exported(scene, tmp_path)
+    joints = {c["name"]: c for o in content["gameObjects"] for c in o["components"] if c["type"].endswith("Joint")}
+    stated = ("effort", "speed", "friction", "armature")
+    assert [joints["Turn"].get(f) for f in stated] == [20, pytest.approx(math.degrees(0.5)), 0.2, 1.5e-7]
+    assert [joints["Slide"].get(f) for f in stated] == [None, 0.25, 3, None]
+    found = {joint.name: joint for joint in kinefab.sources.read(result.path, kinefab.Report()).joints}
+    back = found["Turn"].freedoms[3].passive
+    assert (back.friction, back.armature, back.effort) == (0.2, 1.5e-7, 20.0)
+    assert back.speed == pytest.approx(0.5) and found["Turn"].id == "Turn"
+    assert found["Slide"].freedoms[0].passive == sliding
+
+
+def test_what_differs_among_a_joints_freedoms_is_reported_as_before(tmp_path):
+    scene = kinefab.Scene()
+    stiff, loose = (Freedom(Motion.FREE, passive=Passive(friction=value)) for value in (2.0, 1.0))
+    part = scene.add_part("P", BOX)
+    scene.add_joint("spherical", None, part, point=(0, 0, 0), name="J", rx=stiff, ry=loose, rz=loose)
+    content, result = exported(scene, tmp_path)
+    assert '"friction"' not in json.dumps(content["gameObjects"])
+    assert sum(o.code == "JOINT_FRICTION_DROPPED" for o in result.report.outcomes) == 3
 
 
 def test_what_several_freedoms_lose_are_several_features(tmp_path):
@@ -111,7 +148,7 @@ EFFORT = """<robot name="r"><link name="base"/>
 
 
 def test_the_summary_the_report_and_the_page_agree(tmp_path):
-    """A URDF's joint that is carried over in full, with an effort and a friction that have no place."""
+    """A URDF's joint that is carried over in full, its effort and friction too."""
     (tmp_path / "r.urdf").write_text(EFFORT, "utf-8")
     scene, listed = tmp_path / "r.kinefab", tmp_path / "r.json"
     source = tmp_path / "r.urdf"
@@ -119,7 +156,7 @@ def test_the_summary_the_report_and_the_page_agree(tmp_path):
     outcomes = json.loads(listed.read_text("utf-8"))["outcomes"]
     became = {o["feature"]: o["outcome"] for o in outcomes}
     assert became["joint shoulder"] == "kept" and len(became) == len(outcomes)
-    lost = {"largest effort and speed of joint shoulder", "friction of joint shoulder"}
+    lost: set[str] = set()
     assert {feature for feature, outcome in became.items() if outcome == "dropped"} == lost
     words = ("kept", "approximated", "dropped")
     counts = ", ".join(f"{list(became.values()).count(word)} {word}" for word in words)

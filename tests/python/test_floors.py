@@ -58,6 +58,7 @@ FLOORS: dict[str, list[set[str]]] = {
     "targets": [
         {"numbers", "content", "images", "tangents"},
         {"noun_entry", "filtering", "packing"},
+        {"scene_buffer", "scene_looks"},
         {"kinefab_file", "prefab", "gltf", "usd"},
         {"unitypackage"},
         {"__init__"},

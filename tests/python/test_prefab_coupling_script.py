@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import re
 import shutil
 import subprocess
 from pathlib import Path
@@ -15,31 +14,15 @@ if not (shutil.which("mcs") and shutil.which("mono")):
 
 OWN = Path(__file__).parent / "coupling_script"
 STAND_INS = OWN / "UnityEngine"
+LINKS = Path(__file__).parents[1] / "csharp" / "UnityStandIns" / "UnityEngine" / "Articulations.cs"
 ELDER, NEWER = "", "UNITY_2022_2_OR_NEWER;UNITY_6000_0_OR_NEWER"
-
-
-def for_mono(text: str) -> str:
-    """Without the two things that Debian's compiler has not learned: MathF, and one assignment to several fields."""
-
-    def single(match: re.Match) -> str:
-        pairs = zip(match[1].split(", "), match[2].split(", "))
-        return "{ " + " ".join(f"{a} = {b};" for a, b in pairs) + " }"
-
-    text = re.sub(r"=> \((this\.[^)]*)\) = \(([^)]*)\);", single, text)
-    return text.replace("MathF.Pow(c, 1 / 2.4f)", "(float)Math.Pow(c, 1 / 2.4f)")
 
 
 @pytest.fixture(scope="module", params=[ELDER, NEWER], ids=["2021", "6"])
 def program(request, tmp_path_factory) -> Path:
     """The script and the test's gear pair, compiled against the stand-ins of UnityEngine."""
     folder = tmp_path_factory.mktemp("script")
-    sources = []
-    for path in (STAND_INS / f"{name}.cs" for name in ("Articulations", "Bodies", "Joints", "Objects", "Values", "Meshes")):
-        text = path.read_text("utf-8")
-        for name in ("Rigidbody", "Transform"):
-            text = text.replace(f"public sealed class {name} ", f"public sealed partial class {name} ")
-        sources.append(folder / path.name)
-        sources[-1].write_text(for_mono(text), "utf-8")
+    sources = [LINKS, *sorted(STAND_INS.glob("*.cs"))]
     out = folder / "gear.exe"
     define = [f"-define:{request.param}"] if request.param else []
     command = [

@@ -185,7 +185,7 @@ def test_killed_before_any_call_nothing_dangles_and_the_next_export_ends_it(
         kinefab.export(old_machine(), folder / "Robot.prefab")
         assert kept(folder) == old and hidden(folder) == []
         shutil.rmtree(folder), shutil.rmtree(failing)
-    assert number > 40 and between >= 1 and {(False, True), (True, True)} <= stages
+    assert number >= 40 and between >= 1 and {(False, True), (True, True)} <= stages
     assert not exchanges or between == 1
 
 
@@ -208,7 +208,7 @@ def test_killed_at_its_first_export_the_next_one_ends_it(tmp_path, sets):
         shutil.rmtree(folder)
         if alive:
             break
-    assert number > 30
+    assert number >= 30
 
 
 @pytest.mark.parametrize(

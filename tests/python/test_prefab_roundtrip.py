@@ -18,7 +18,8 @@ from unity_yaml import documents
 
 DEFINITIONS = json.loads((schema_directory() / "scene.schema.json").read_text("utf-8"))["$defs"]
 INFINITE = {"breakForce", "breakTorque", "maximumForce"}
-ALSO = {"id", "name", "group", "because", "closure", "exact", "extras", "type", "mesh", "materials", "connectedBody", "constraints"}
+ALSO = {"id", "name", "group", "because", "closure", "exact", "extras", "type", "mesh", "materials", "material"}
+ALSO |= {"connectedBody", "constraints", "effort", "speed", "friction", "armature"}
 """What a scene file says beside Unity's own fields, and what is compared by what it means."""
 
 
@@ -112,6 +113,8 @@ def _object(index, node, nodes, content, scene_path, dialect) -> list[str]:
             found += differences(
                 None if other is None else nodes[other].file_id, component["connectedBody"], own
             )
+        if "material" in component:
+            found += _physics(wanted, component["material"], content, own)
         if "mesh" in wanted:
             found += _mesh(wanted["mesh"], component["mesh"], content, scene_path, own)
         if wanted["type"] == "MeshRenderer":
@@ -120,6 +123,21 @@ def _object(index, node, nodes, content, scene_path, dialect) -> list[str]:
             ]  # as files are called
             read_names = [str(m.fields["m_Name"]) for m in component["materials"]]
             found += [] if names == read_names else [f"{own}: {names} became {read_names}"]
+    return found
+
+
+def _physics(wanted: dict, read_back, content: dict, where: str) -> list[str]:
+    """A collider's physics material: words of the scene are numbers of Unity's, and Unity 6 calls its fields otherwise."""
+    if "material" not in wanted:
+        return [] if read_back is None else [f"{where}: a physics material"]
+    entry = told("physicsMaterial", content["physicsMaterials"][wanted["material"]])
+    fields = {key.removeprefix("m_")[0].lower() + key.removeprefix("m_")[1:]: value for key, value in read_back.fields.items()}
+    words = ["Average", "Multiply", "Minimum", "Maximum"]
+    found = [] if str(fields["name"]) == entry["name"] else [f"{where}: named {fields['name']}"]
+    for key in ("dynamicFriction", "staticFriction", "bounciness"):
+        found += differences(entry[key], float(fields[key]), f"{where}.{key}")
+    for key in ("frictionCombine", "bounceCombine"):
+        found += differences(words.index(entry[key]), int(fields[key]), f"{where}.{key}")
     return found
 
 

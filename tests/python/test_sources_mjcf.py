@@ -157,7 +157,7 @@ def test_what_bounds_the_actuators_of_a_joint_bounds_its_drive(tmp_path):
     assert drive == {"positionSpring": 10, "maximumForce": 5}
     assert "JOINT_EFFORT_DROPPED" not in told and "MJCF_EFFORT_UNEVEN" not in told
     drive, told = written(" damping='1'", "-5 5")
-    assert drive["maximumForce"] == 8 and {"JOINT_EFFORT_DROPPED", "JOINT_PASSIVE_DROPPED"} <= told
+    assert drive["maximumForce"] == 8 and "JOINT_PASSIVE_DROPPED" in told
     drive, told = written("", "-5 6")
     assert drive["maximumForce"] == 6 and "MJCF_EFFORT_UNEVEN" in told
 

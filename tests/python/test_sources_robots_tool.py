@@ -36,7 +36,8 @@ def test_robots_are_valid_and_as_mobile_as_their_engines_say(tmp_path, zoo):
     for path, mobility in [*((TWINS / name, n) for name, n in MOBILITY.items()), (zoo, 12), (sdf, 4)]:
         target = kinefab.export(path, tmp_path / f"{path.name}.kinefab").path
         said = run("validate", target, "--strict")
-        assert said["valid"] and said["diagnostics"] == [], path.name
+        told = {d["code"] for d in said["diagnostics"]} - {"JOINT_STATED_UNFOLLOWED"}  # URDF asks for effort and speed
+        assert said["valid"] and not told, path.name
         counted = run("mobility", target)
         assert counted["mobility"]["mobility"] == mobility, path.name
         assert [d for d in counted["diagnostics"] if d["severity"] == "error"] == [], path.name

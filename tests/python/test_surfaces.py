@@ -16,6 +16,7 @@ from kinefab.geometry.files import read_mesh_file
 from kinefab.geometry.looks.shading import shaded
 from kinefab.geometry.looks.visuals import surface_of
 from kinefab.model import AlphaMode, Mesh
+from kinefab.unity.back.scene_file import read_buffers
 from trimesh.visual.material import PBRMaterial
 
 RED = (1.0, 0.0, 0.0, 1.0)
@@ -162,19 +163,19 @@ def test_colours_of_faces_become_surfaces(tmp_path):
     assert renderer["materials"] == [0, 1]
 
 
-def test_one_colour_of_all_vertices_is_a_surface_many_are_told(tmp_path):
-    """.kinefab has no place for colours of vertices: dropped, by name; the mesh in Unity's terms has them."""
+def test_one_colour_of_all_vertices_is_a_surface_many_are_the_mesh_s(tmp_path):
+    """Colours that differ stand in the buffer, four floats a vertex."""
     ball = trimesh.creation.icosphere(subdivisions=1)
     ball.visual.vertex_colors = [255, 0, 0, 255]
     content, _ = exported(ball, tmp_path)
     assert colors(content) == [[1, 0, 0, 1]]
     ball.visual.vertex_colors = np.arange(len(ball.vertices) * 4).reshape(-1, 4).astype(np.uint8)
-    _, result = exported(ball, tmp_path)
-    assert result.unity.meshes[0].colors.shape == (len(ball.vertices), 4)
-    assert any(
-        o.outcome is Outcome.DROPPED and o.code == "TARGET_FIELD_DROPPED" and "colors" in o.message
-        for o in result.report.outcomes
-    )
+    content, result = exported(ball, tmp_path)
+    (buffer,) = read_buffers(result.path, content)
+    place = content["meshes"][0]["colors"]["offset"]
+    held = np.frombuffer(buffer, "<f4", 4 * len(ball.vertices), place).reshape(-1, 4)
+    assert (held == result.unity.meshes[0].colors).all() and content["version"] == "1.1"
+    assert all(o.code != "TARGET_FIELD_DROPPED" for o in result.report.outcomes)
 
 
 def test_more_colours_than_surfaces_stay_apart_at_the_corners(tmp_path):

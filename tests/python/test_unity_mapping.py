@@ -41,10 +41,13 @@ from kinefab.model import (
     Surface,
     Term,
     Texture,
+    Wrap,
     Track,
     freedoms_of,
 )
 from kinefab.spatial import Pose, quaternion_from_matrix, rotation_about, rotation_exp
+from kinefab.unity.back.scene_file import read_buffers
+from prefab_scenes import png
 
 X, Y, Z = np.eye(3)
 WEIGHT = MassProperties(2.0, np.array([0.1, 0.0, 0.0]), np.diag([0.01, 0.02, 0.02]))
@@ -208,7 +211,9 @@ def test_passive_springs_join_the_drive_and_the_rest_is_told(tmp_path):
     content, result = written(arm(freedom), tmp_path)
     spring = component(content, "Arm", "HingeJoint")["spring"]
     assert spring == {"spring": 40, "damper": 3.5, "targetPosition": pytest.approx(math.degrees(0.1))}
-    assert outcomes(result, Outcome.DROPPED) == {"JOINT_FRICTION_DROPPED", "JOINT_ARMATURE_DROPPED"}
+    hinge = component(content, "Arm", "HingeJoint")
+    assert (hinge["friction"], hinge["armature"]) == (0.3, 0.01)
+    assert outcomes(result, Outcome.DROPPED) == set()
     turning = Freedom(Motion.FREE, drive=Drive(0.0, 1.4, 0.0, 2.0), passive=passive)
     joint = component(written(arm(turning), tmp_path)[0], "Arm", "ConfigurableJoint")
     assert joint["angularXDrive"]["positionDamper"] == 3.5  # 2 at 1.4 rad/s and 1.5 at rest are 3.5 at 0.8
@@ -220,9 +225,11 @@ def test_what_cannot_be_added_to_a_motor_is_told(tmp_path):
     freedom = Freedom(Motion.FREE, drive=motor, passive=Passive(damping=1.0))
     assert "JOINT_PASSIVE_DROPPED" in outcomes(written(arm(freedom), tmp_path)[1], Outcome.DROPPED)
     limited = Freedom(Motion.FREE, drive=Drive(0.2, 0.0, 30.0), passive=Passive(speed=3.0))
-    assert "JOINT_EFFORT_DROPPED" in outcomes(written(arm(limited), tmp_path)[1], Outcome.DROPPED)
+    assert component(written(arm(limited), tmp_path)[0], "Arm", "HingeJoint")["speed"] == pytest.approx(math.degrees(3.0))
     limited = Freedom(Motion.FREE, passive=Passive(effort=20.0, speed=3.0))
-    assert "JOINT_EFFORT_DROPPED" in outcomes(written(arm(limited), tmp_path)[1], Outcome.DROPPED)
+    content, result = written(arm(limited), tmp_path)
+    assert component(content, "Arm", "HingeJoint")["effort"] == 20
+    assert "JOINT_EFFORT_DROPPED" not in outcomes(result, Outcome.DROPPED)
 
 
 def test_a_joint_that_is_switched_off_or_collides(tmp_path):
@@ -246,14 +253,19 @@ def test_clips_are_mirrored_key_by_key(tmp_path):
     assert np.allclose(clip["tracks"][0]["localRotation"][1], [math.sin(0.4), 0, 0, math.cos(0.4)])
 
 
-def test_what_the_format_has_no_field_for_is_told(tmp_path):
-    """Textures and physics materials; of a coupling of several terms, light bodies and couplings of one take the place."""
+def test_textures_physics_materials_and_sums_are_carried(tmp_path):
+    """An image once for each colour space, byte for byte; of a coupling of several terms, light bodies and couplings of one take
+    the place."""
     rubber = PhysicsMaterial("rubber", 0.9, 1.0)
     scene = arm(
         bodies=(Body("b", 0, (0,)),),
         colliders=(Collider(ColliderKind.BOX, size=(0.1, 0.1, 0.1), material=rubber),),
     )
-    scene.surfaces.append(Surface("paint", color_texture=Texture("paint.png", data=b"...")))
+    image = png(tmp_path / "paint.png", np.zeros((2, 2, 4), np.uint8)).read_bytes()
+    texture = Texture("paint.png", data=image, wrap=Wrap.CLAMP, uv_set=1, scale=(2.0, 3.0), rotation=math.pi / 6)
+    plain = Texture("paint.png", data=image)
+    shown = {"color_texture": texture, "emission_texture": plain, "occlusion_texture": plain}
+    scene.surfaces.append(Surface("paint", (1.0, 1.0, 1.0, 0.5), emission=(0.0, 0.5, 2.0), **shown))
     slide = Joint("Slide", JointKind.PRISMATIC, None, 1, Pose(), Pose(), freedoms_of(JointKind.PRISMATIC))
     scene.nodes.append(Node("Cart", "Cart", mass=WEIGHT))
     swing = replace(scene.joints[0], id="Swing", b=2)
@@ -265,8 +277,17 @@ def test_what_the_format_has_no_field_for_is_told(tmp_path):
     assert len(content["couplings"]) == 3 and content["analysis"]["mobility"] == 2
     (coupling,) = result.unity.couplings
     assert [t.ratio for t in coupling.terms] == pytest.approx([0.1 * math.pi / 180, -0.2 * math.pi / 180])
-    dropped = {o.code: o.message for o in result.report.outcomes if o.outcome is Outcome.DROPPED}
-    assert "TARGET_FIELD_DROPPED" in dropped
+    assert outcomes(result, Outcome.DROPPED) == set()
+    assert content["physicsMaterials"] == [{"name": "rubber", "dynamicFriction": 0.9, "staticFriction": 1}]
+    assert component(content, "Arm", "BoxCollider")["material"] == 0
+    shown = content["materials"][-1]
+    assert shown["colorTexture"] == {"image": 0, "uvSet": 1, "wrap": "clamp", "scale": [2, 3], "rotation": 30}
+    assert (shown["emissionTexture"], shown["occlusionTexture"]) == ({"image": 0}, {"image": 1})
+    assert shown["emission"] == [0, 0.5, 2] and "alphaMode" not in shown
+    assert [i.get("colorSpace", "sRGB") for i in content["images"]] == ["sRGB", "linear"]
+    (buffer,) = read_buffers(result.path, content)
+    for entry in content["images"]:
+        assert buffer[entry["data"]["offset"] :][: entry["byteLength"]] == image
 
 
 @pytest.mark.parametrize("on_b", [True, False])

@@ -59,7 +59,7 @@ def armed(monkeypatch, at: int):
     monkeypatch.setattr(writer.os, "fsync", dying("fsync", os.fsync))
     monkeypatch.setattr(writer.os, "replace", dying("replace", os.replace))
     monkeypatch.setattr(writer.Path, "unlink", dying("unlink", writer.Path.unlink))
-    monkeypatch.setattr(writer._Buffer, "append", dying("append", writer._Buffer.append))
+    monkeypatch.setattr(writer.SceneBuffer, "append", dying("append", writer.SceneBuffer.append))
     monkeypatch.setattr(writer, "canonical_json", dying("json", canonical_json))
     return touched
 

@@ -35,6 +35,7 @@ internal static class ValueText
             { SpecialType: SpecialType.System_Boolean } => $"{json}.Boolean()",
             { SpecialType: SpecialType.System_String } => $"{json}.Text()",
             { TypeKind: TypeKind.Enum } word => $"{json}.Word({word.Name}Words.Table)",
+            { Name: "Vector2d" } => $"{json}.Vector2()",
             { Name: "Vector3d" } => $"{json}.Vector3()",
             { Name: "Quaterniond" } => $"{json}.Quaternion()",
             { Name: "IReadOnlyDictionary" } => $"{json}.Dictionary()",
@@ -66,6 +67,7 @@ internal static class ValueText
         return type switch
         {
             { TypeKind: TypeKind.Enum } => $"json.Value({type.Name}Words.Table.WordOf({value}));",
+            { Name: "Vector2d" } => $"json.Numbers({value}.X, {value}.Y);",
             { Name: "Vector3d" } => $"json.Numbers({value}.X, {value}.Y, {value}.Z);",
             { Name: "Quaterniond" } => $"json.Numbers({value}.X, {value}.Y, {value}.Z, {value}.W);",
             { Name: "Color" } => $"json.Numbers({value}.R, {value}.G, {value}.B, {value}.A);",

@@ -261,7 +261,7 @@ def _enabled(scene: Scene, report: Report) -> Scene:
 
 def _mapped(found: Analysed, options: ExportOptions, links: bool, report: Report) -> UnityScene:
     """links: whether joints make links of the bodies that they join."""
-    if isinstance(found.scene, WrittenScene) and (as_written := found.scene.as_written(links, options)):
+    if isinstance(found.scene, WrittenScene) and (as_written := found.scene.as_written(links, options, report)):
         return as_written
     scene, groups = with_normals(found.scene, options.smooth), found.groups
     convex = ConvexOnly.with_links(scene, groups, options.ground) if links else ConvexOnly()

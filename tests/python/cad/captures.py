@@ -9,7 +9,7 @@ from typing import Any
 import jsonschema
 import kinefab
 from cad.documented import watch
-from golden import differences
+from golden import differences, unnamed
 from kinefab.capture.channel import question, record
 from kinefab.capture.run import Captured, replay
 from kinefab.diagnostics import Report, schema_directory
@@ -29,7 +29,7 @@ def capture(program: str, answers: Any, folder: Path, up: str = "", report: Repo
 def scene(source: Path) -> dict[str, Any]:
     target = source.with_name(source.name + ".kinefab")
     kinefab.export(source, target)
-    content = json.loads(target.read_text("utf-8"))
+    content = json.loads(unnamed(target.read_text("utf-8")))  # programs name parts as they like
     kept = ("gameObjects", "couplings", "kinefab", "version")
     return {key: content[key] for key in kept if key in content}
 

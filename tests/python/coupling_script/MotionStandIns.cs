@@ -1,4 +1,4 @@
-// What KinefabCoupling needs of UnityEngine beside the stand-ins that the example importer is held against.
+// What moves KinefabCoupling's bodies and finds its components; Mono's compiler knows C# 7 and not the package's own stand-ins.
 using System;
 using System.Collections.Generic;
 using System.Linq;

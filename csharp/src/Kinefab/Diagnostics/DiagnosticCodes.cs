@@ -180,6 +180,9 @@ public static class DiagnosticCodes
     /// <summary>"{uri}" could lead out of the scene's folder.</summary>
     public const string BufferUriUnsafe = "BUFFER_URI_UNSAFE";
 
+    /// <summary>The image does not begin as {mediaType} does.</summary>
+    public const string ImageNotOfKind = "IMAGE_NOT_OF_KIND";
+
     /// <summary>The buffer {uri} cannot be read: {detail}.</summary>
     public const string BufferMissing = "BUFFER_MISSING";
 
@@ -287,6 +290,9 @@ public static class DiagnosticCodes
 
     /// <summary>The coordinate "{coordinate}" is locked, so the coupling holds the other one still.</summary>
     public const string CouplingCoordinateLocked = "COUPLING_COORDINATE_LOCKED";
+
+    /// <summary>The source states what neither solver follows and no joint of Unity's has.</summary>
+    public const string JointStatedUnfollowed = "JOINT_STATED_UNFOLLOWED";
 
     /// <summary>{what} is {stated} in the file, counted from the source's constraints, and {counted} counted from the joints.</summary>
     public const string MobilityDiffers = "MOBILITY_DIFFERS";

@@ -92,6 +92,14 @@ internal sealed class JsonWriter
         Put(value);
     }
 
+    internal void Numbers(double x, double y)
+    {
+        BeginArray();
+        Value(x);
+        Value(y);
+        EndArray();
+    }
+
     internal void Numbers(double x, double y, double z)
     {
         BeginArray();

@@ -26,34 +26,12 @@ internal static class Trigonometry
     private static readonly double[] ArctangentRests = { 0, 1.0698755618734451e-17, 2.2698777452961687e-17, 1.5834785051444286e-17, 3.061616997868383e-17 };
 
     /// <summary>Of an angle in radians.</summary>
-    public static double Sin(double angle)
-    {
-        if (Math.Abs(angle) <= Math.PI / 4)
-            return SinNearZero(angle);
-        double rest = Reduced(angle, out int quarter);
-        return quarter switch
-        {
-            0 => SinNearZero(rest),
-            1 => CosNearZero(rest),
-            2 => -SinNearZero(rest),
-            _ => -CosNearZero(rest),
-        };
-    }
+    public static double Sin(double angle) =>
+        Math.Abs(angle) <= Math.PI / 4 ? SinNearZero(angle) : SinOf(Reduced(angle, out int quarter), quarter);
 
     /// <summary>Of an angle in radians.</summary>
-    public static double Cos(double angle)
-    {
-        if (Math.Abs(angle) <= Math.PI / 4)
-            return CosNearZero(angle);
-        double rest = Reduced(angle, out int quarter);
-        return quarter switch
-        {
-            0 => CosNearZero(rest),
-            1 => -SinNearZero(rest),
-            2 => -CosNearZero(rest),
-            _ => SinNearZero(rest),
-        };
-    }
+    public static double Cos(double angle) =>
+        Math.Abs(angle) <= Math.PI / 4 ? CosNearZero(angle) : SinOf(Reduced(angle, out int quarter), quarter + 1);
 
     /// <summary>Of an angle in radians.</summary>
     public static double Tan(double angle) => Sin(angle) / Cos(angle);
@@ -82,6 +60,14 @@ internal static class Trigonometry
 
     /// <summary>The angle of a sine, -pi / 2 to pi / 2; no number outside of -1 to 1.</summary>
     public static double Asin(double sine) => Atan2(sine, Math.Sqrt((1 - sine) * (1 + sine)));
+
+    private static double SinOf(double rest, int quarter) => (quarter & 3) switch
+    {
+        0 => SinNearZero(rest),
+        1 => CosNearZero(rest),
+        2 => -SinNearZero(rest),
+        _ => -CosNearZero(rest),
+    };
 
     // What is left of an angle by whole quarters of a turn, at most pi / 4 either way. Beyond half a million turns of the angle less than its own
     // last place is lost.

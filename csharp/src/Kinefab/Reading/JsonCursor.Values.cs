@@ -132,6 +132,14 @@ internal ref partial struct JsonCursor
         return new Vector3d(v[0], v[1], v[2]);
     }
 
+    /// <summary>Two numbers.</summary>
+    internal Vector2d Vector2()
+    {
+        Span<double> v = stackalloc double[2];
+        Numbers(v);
+        return new Vector2d(v[0], v[1]);
+    }
+
     /// <summary>Four numbers x y z w.</summary>
     internal Quaterniond Quaternion()
     {
@@ -145,7 +153,7 @@ internal ref partial struct JsonCursor
     {
         if (reader.Token != JsonToken.StartArray)
         {
-            Mismatch(values.Length == 3 ? "an array of 3 numbers" : "an array of 4 numbers");
+            Mismatch($"an array of {Invariant.Text(values.Length)} numbers");
             return;
         }
 

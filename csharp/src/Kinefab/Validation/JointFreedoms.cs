@@ -29,7 +29,7 @@ internal static class JointFreedoms
     /// <summary>Several limited axes share one radius; each is given its own range, reached while the others are at their middle.</summary>
     private static void Linear(ConfigurableJoint joint, WorldTransform own, WorldTransform connected, List<JointFreedom> freedoms)
     {
-        Vector3d start = joint.AutoConfigureConnectedAnchor ? Vector3d.Zero : JointAnchors.GapAlongAxes(joint, own, connected);
+        Vector3d start = JointAnchors.StartGap(joint, own, connected);
         double limit = joint.LinearLimit.Limit;
         Add(Coordinate.X, joint.XMotion, -limit - start.X, limit - start.X, freedoms);
         Add(Coordinate.Y, joint.YMotion, -limit - start.Y, limit - start.Y, freedoms);

@@ -3,6 +3,7 @@ using System.Collections.Generic;
 using System.Threading;
 using Kinefab.Diagnostics;
 using Kinefab.Document;
+using Kinefab.Json;
 using Kinefab.Reading;
 
 namespace Kinefab.Validation;
@@ -112,6 +113,8 @@ public static class SceneValidator
 
     private static void Collider(Collider collider, SceneDocument document, Rigidbody? nearestBody, in Place at)
     {
+        if (collider.Material is int material)
+            NumberRules.Reference(at, "material", material, "physicsMaterials", document.PhysicsMaterials.Count);
         switch (collider)
         {
             case BoxCollider box:
@@ -140,6 +143,7 @@ public static class SceneValidator
         {
             JointRules.AnchorNumbers(anchored, at);
             JointRules.Axis(anchored, at);
+            JointRules.Stated(anchored, at);
         }
 
         if (joint is HingeJoint hinge)
@@ -182,7 +186,9 @@ public static class SceneValidator
     private static void Lists(SceneDocument document, Findings findings)
     {
         for (int i = 0; i < document.Materials.Count; i++)
-            MeshRules.Material(document.Materials[i], new Place(findings, "materials", i));
+            LookRules.Material(document.Materials[i], document.Images.Count, new Place(findings, "materials", i));
+        for (int i = 0; i < document.PhysicsMaterials.Count; i++)
+            ColliderRules.Material(document.PhysicsMaterials[i], new Place(findings, "physicsMaterials", i));
         for (int i = 0; i < document.Couplings.Count; i++)
             CouplingRules.Check(document.Couplings[i], document, new Place(findings, "couplings", i));
         for (int i = 0; i < document.Animations.Count; i++)
@@ -205,6 +211,9 @@ public static class SceneValidator
             cancellation.ThrowIfCancellationRequested();
             Mesh(document, document.Meshes[i], usable, new Place(findings, "meshes", i));
         }
+
+        for (int i = 0; i < document.Images.Count; i++)
+            LookRules.Image(document.Images[i], usable, document, new Place(findings, "images", i));
     }
 
     private static void Mesh(SceneDocument document, Mesh mesh, bool[] usable, in Place at)
@@ -214,10 +223,15 @@ public static class SceneValidator
         long vertices = Math.Max(0, mesh.VertexCount);
         bool positions = BufferRules.Accessor(mesh.Positions, vertices * 12, usable, document, "positions", at);
         bool indices = BufferRules.Accessor(mesh.Indices, MeshData.IndexBytes(mesh), usable, document, "indices", at);
-        if (mesh.Normals is Accessor normals)
-            BufferRules.Accessor(normals, vertices * 12, usable, document, "normals", at);
-        if (mesh.Uv is Accessor uv)
-            BufferRules.Accessor(uv, vertices * 8, usable, document, "uv", at);
+        BufferRules.Accessor(mesh.Normals, vertices * 12, usable, document, "normals", at);
+        for (int set = 0; set < MeshData.UvSets; set++)
+        {
+            if (MeshData.UvAccessor(mesh, set) is Accessor uv)
+                BufferRules.Accessor(uv, vertices * 8, usable, document, set == 0 ? "uv" : "uv" + Invariant.Text(set + 1), at);
+        }
+
+        BufferRules.Accessor(mesh.Tangents, vertices * 16, usable, document, "tangents", at);
+        BufferRules.Accessor(mesh.Colors, vertices * 16, usable, document, "colors", at);
         if (positions)
             BufferRules.FinitePositions(MeshData.Bytes(document, mesh.Positions, vertices * 12), at);
         if (indices)

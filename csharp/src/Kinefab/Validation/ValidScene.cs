@@ -62,6 +62,19 @@ public sealed partial class ValidScene
         return JointFreedoms.Of(joint, WorldTransform(gameObject), Connected(joint));
     }
 
+    /// <summary>
+    /// From where a ConfigurableJoint's connected anchor stands to its own anchor: what Unity's linear coordinates, which count from where
+    /// the anchors meet, are at the exported pose.
+    /// </summary>
+    /// <param name="gameObject">Index of the GameObject.</param>
+    /// <param name="component">Index of the joint in its components.</param>
+    /// <returns>Along the joint's X, Y and Z, metres; zero where Unity works the connected anchor out, and of other joints.</returns>
+    /// <exception cref="ArgumentOutOfRangeException">There is no such GameObject or component, or it is no joint.</exception>
+    public Vector3d AnchorGap(int gameObject, int component) =>
+        JointAt(gameObject, component, nameof(component)) is ConfigurableJoint joint
+            ? JointAnchors.StartGap(joint, WorldTransform(gameObject), Connected(joint))
+            : Vector3d.Zero;
+
     /// <summary>Where the connected body of a joint stands; the world's own place when there is none.</summary>
     internal WorldTransform Connected(Joint joint) =>
         joint.ConnectedBody is int body ? WorldTransform(body) : new WorldTransform(Pose.Identity, new Vector3d(1, 1, 1));

@@ -16,6 +16,7 @@ from scipy.sparse.csgraph import connected_components
 from ..model import Collider, ColliderKind, Mesh
 from ..spatial import Array, IntArray, Pose
 from .closure import joined_vertices
+from .mass import solid_volume
 
 FIT = 1e-4
 """How far a vertex may be off, as a share of the shape's smallest extent."""
@@ -59,11 +60,6 @@ def _normals(vertices: Array, faces: IntArray) -> tuple[Array, Array]:
     return across[has] / double[has, None], 0.5 * double[has]
 
 
-def _volume(vertices: Array, faces: IntArray) -> float:
-    a, b, c = (vertices[faces[:, i]] - vertices.mean(axis=0) for i in range(3))
-    return float(np.einsum("ij,ij->", a, np.cross(b, c))) / 6.0
-
-
 def _tolerance(smallest: float, largest: float) -> float:
     """Metres; infinite precision is asked of no thin plate."""
     return max(FIT * smallest, ROUNDING * largest)
@@ -82,7 +78,7 @@ def _box(vertices: Array, faces: IntArray) -> Collider | None:
     # Each triangle lies in one of the six faces, all three corners in the same.
     if not (on_low[faces].all(axis=1) | on_high[faces].all(axis=1)).any(axis=1).all():
         return None
-    if not _is_one_skin(vertices, faces) or abs(_volume(vertices, faces) / size.prod() - 1.0) > 10.0 * tolerance / size.min():
+    if not _is_one_skin(vertices, faces) or abs(solid_volume(vertices, faces) / size.prod() - 1.0) > 10.0 * tolerance / size.min():
         return None
     extents = (float(size[0]), float(size[1]), float(size[2]))
     return Collider(ColliderKind.BOX, Pose(axes, axes @ (0.5 * (low + high))), size=extents)
@@ -224,7 +220,7 @@ def _is_all_of(shape: _Round, vertices: Array, faces: IntArray) -> bool:
         return False
     if not _is_finely_cut(shape, vertices, faces, tolerance):
         return False
-    share = _volume(vertices, faces) / shape.volume()
+    share = solid_volume(vertices, faces) / shape.volume()
     return 1.0 - 3.0 * SAG < share <= 1.0 + 3.0 * FIT
 
 

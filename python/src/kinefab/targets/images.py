@@ -48,7 +48,8 @@ def read_image(texture: Texture, endings: Collection[str], otherwise: str) -> Im
     except OSError as error:
         raise ImageError(error.strerror or str(error)) from None
     ending = next((ending for magic, ending in MAGIC if data.startswith(magic)), "")
-    if not ending and texture.path is not None and texture.path.suffix.lower() == ".tga" and len(data) > 18:
+    named = texture.media_type == "image/x-tga" or (texture.path is not None and texture.path.suffix.lower() == ".tga")
+    if not ending and named and len(data) > 18:
         ending = ".tga"
     if ending not in endings:
         raise ImageError(otherwise if data else "it is empty")

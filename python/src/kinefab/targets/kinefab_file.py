@@ -7,7 +7,6 @@ their places (fsync), then the buffer is renamed, then the scene that names it, 
 
 from __future__ import annotations
 
-import hashlib
 import json
 import os
 import re
@@ -17,49 +16,30 @@ from contextlib import ExitStack
 from pathlib import Path
 from typing import Any, BinaryIO, cast
 
-import numpy as np
-
 from .. import __version__, model
 from ..diagnostics import KinefabError, Report, is_encodable
 from ..replacing import beside, one_at_a_time, remove_leftovers, replacing, sync_directory
-from ..spatial import bounds
 from ..unity.container import write_container
+from ..unity.definitions import UV_SETS
 from ..unity.counting import with_led_joints_on_light_bodies
+from ..unity.joints.passive import withdraw_stated
 from ..unity.links.tree import articulated
-from ..unity.scene import BodyFreedom, Component, Coupling, GameObject, Joint, Mesh, Mobility, UnityScene
+from ..unity.scene import BodyFreedom, Component, Coupling, GameObject, Joint, Mobility, UnityScene
 from ..unity.sums import with_one_term_each
 from .content import Content
-from .noun_entry import Noun, entry, needs_newer, unsaid
+from .noun_entry import Noun, entry, needs_newer, newer_keys, unsaid
 from .numbers import plain_value, significant, whole_numbers
+from .scene_buffer import SceneBuffer, mesh_entry
+from .scene_looks import Looks
+from .tangents import normal_mapped, with_tangents
 
 FORMAT_VERSION = "1.0"
 NEWER_VERSION = "1.1"
 """Of a scene that says what 1.0 has no field for, as the schema marks it (``since``), and of one with its buffer in one file."""
-UINT16_VERTICES = 65535
-"""Most vertices that Unity's 16-bit index format counts."""
 HASH_DIGITS = 16
 """Hexadecimal digits of the buffer's SHA-256 in its name."""
 
 Progress = Callable[[float], None]
-
-
-class _Buffer:
-    """Appends runs of values to a file, 4-byte aligned, and hashes what it writes."""
-
-    def __init__(self, file: BinaryIO):
-        self._file = file
-        self.hash = hashlib.sha256()
-        self.length = 0
-
-    def append(self, values: np.ndarray, dtype: str) -> dict[str, int]:
-        """The accessor of ``values``, written little-endian and tightly packed as ``dtype``."""
-        data = np.ascontiguousarray(values, dtype=np.dtype(dtype).newbyteorder("<")).data.cast("B")
-        offset = self.length
-        for piece in filter(len, (data, bytes(-len(data) % 4))):
-            self._file.write(piece)
-            self.hash.update(piece)
-            self.length += len(piece)
-        return {"buffer": 0, "offset": offset}
 
 
 def write(content: Content, target: Path) -> tuple[Path, ...]:
@@ -72,24 +52,25 @@ def write(content: Content, target: Path) -> tuple[Path, ...]:
     scene = _in_unity(content)
     _tell_losses(scene, report)
     _tell_mesh_losses(content.scene.meshes, report)
+    looks = Looks(report)
+    looks.add(scene.materials)
     content.refuse_losses()
     if unsafe := _unsafe(target.name):
         detail = f"its name {unsafe}, and the scene names its buffer after it"
         raise KinefabError([report.add("TARGET_UNWRITABLE", path=target, detail=detail)])
     binary = content.options.get("container") == "binary"
-    buffer_path, head = None, _head(scene, binary)
+    buffer_path, numbers = None, dict[str, Any]()
     with one_at_a_time(target.parent), ExitStack() as stack:
         remove_leftovers(target, "bin", "scene")
         temporary = None
-        if len(scene.meshes):
+        if len(scene.meshes) or looks.images:
             file, temporary = stack.enter_context(beside(target, "bin"))
-            buffer_path, buffer, meshes = _write_buffer(scene.meshes, target, file, content.progress)
+            buffer_path, numbers = _write_buffer(scene, looks, target, file, content.progress)
             if binary:
                 buffer_path = None
-                del buffer["uri"]
-            head |= {"buffers": [buffer], "meshes": meshes}
+                del numbers["buffers"][0]["uri"]
         with replacing(target, "scene") as file:
-            pieces = (piece.encode("utf-8") for piece in canonical_json(head | _tail(scene, report)))
+            pieces = (piece.encode("utf-8") for piece in canonical_json(_document(scene, looks, numbers, report)))
             if binary:
                 held = None if temporary is None else stack.enter_context(open(temporary, "rb"))
                 _write_in_one(target, file, pieces, held, report)
@@ -122,29 +103,39 @@ def _in_unity(content: Content) -> UnityScene:
     links = content.options.get("physics") == "articulation"
     scene = with_led_joints_on_light_bodies(with_one_term_each(content.unity(links), content.report))
     if not links:
+        for joint in content.scene.joints:  # a scene has fields for what no joint of Unity's has
+            withdraw_stated(joint, content.report)
         return scene
     return articulated(scene, {joint.id: joint for joint in content.scene.joints}, content.report)
 
 
-def _head(scene: UnityScene, binary: bool = False) -> dict[str, Any]:
-    """Everything before the meshes, in the file's order."""
+def _document(scene: UnityScene, looks: Looks, numbers: dict[str, Any], report: Report) -> dict[str, Any]:
+    """The whole of it, in the file's order.  numbers: the entries of what lies in the buffer."""
     head: dict[str, Any] = {
         "format": "kinefab.scene",
-        "version": NEWER_VERSION if binary or _is_newer(scene) else FORMAT_VERSION,
+        "version": NEWER_VERSION if _is_newer(scene, looks, numbers) else FORMAT_VERSION,
         "generator": {"name": "kinefab", "version": __version__},
     }
-    return head | {key: value for key in ("source", "physics") if (value := entry(getattr(scene, key)))}
+    head |= {key: value for key in ("source", "physics") if (value := entry(getattr(scene, key)))}
+    return head | numbers | _tail(scene, looks, report)
 
 
-def _is_newer(scene: UnityScene) -> bool:
+def _is_newer(scene: UnityScene, looks: Looks, numbers: dict[str, Any]) -> bool:
     """Whether something in it format 1.0 has no word for."""
-    return any(needs_newer(entry) or any(map(needs_newer, entry.components)) for entry in scene.gameObjects)
+    lists = {"mesh": numbers.get("meshes", ()), "material": looks.materials}
+    return (
+        bool(scene.physicsMaterials or looks.images)
+        or any("uri" not in buffer for buffer in numbers.get("buffers", ()))
+        or any(newer_keys(definition) & entry.keys() for definition, entries in lists.items() for entry in entries)
+        or any(needs_newer(entry) or any(map(needs_newer, entry.components)) for entry in scene.gameObjects)
+    )
 
 
-def _tail(scene: UnityScene, report: Report) -> dict[str, Any]:
+def _tail(scene: UnityScene, looks: Looks, report: Report) -> dict[str, Any]:
     """Everything after the meshes, in the file's order."""
     tail: dict[str, Any] = {
-        "materials": [entry(material) for material in scene.materials],
+        "materials": looks.materials,
+        "physicsMaterials": [entry(material) for material in scene.physicsMaterials],
         "gameObjects": _game_objects(scene.gameObjects),
         "couplings": [_coupling(coupling) for coupling in scene.couplings],
         "animations": [entry(clip) for clip in scene.animations],
@@ -231,10 +222,8 @@ def _tell_losses(scene: UnityScene, report: Report) -> None:
 def _tell_mesh_losses(meshes: Sequence[model.Mesh], report: Report) -> None:
     """Of the model's meshes, as Unity's are made one by one when they are written."""
     for mesh in meshes:
-        lost = {"colors": mesh.colors is not None, "tangents": mesh.tangents is not None}
-        for name, there in (lost | {"uv sets behind the first": len(mesh.uvs) > 1}).items():
-            if there:
-                report.field_dropped(f"mesh {mesh.name}", name, ".kinefab")
+        if len(mesh.uvs) > len(UV_SETS):
+            report.field_dropped(f"mesh {mesh.name}", f"uv sets behind the first {len(UV_SETS)}", ".kinefab")
 
 
 def _unsafe(name: str) -> str:
@@ -247,47 +236,26 @@ def _unsafe(name: str) -> str:
 
 
 def _write_buffer(
-    meshes: Sequence[Mesh], target: Path, file: BinaryIO, progress: Progress
-) -> tuple[Path, dict[str, Any], list[Any]]:
-    """Write the meshes; the path that is meant for them, the buffer's entry in the scene and the meshes'."""
-    entries: list[dict[str, Any]] = []
-    buffer = _Buffer(file)
-    for i, mesh in enumerate(meshes):
-        entries.append(_mesh_entry(mesh, buffer))
-        progress((i + 1) / len(meshes))
+    scene: UnityScene, looks: Looks, target: Path, file: BinaryIO, progress: Progress
+) -> tuple[Path, dict[str, Any]]:
+    """Write meshes and images; the path that is meant for them, and their entries in the scene with the buffer's."""
+    buffer, bumpy = SceneBuffer(file), normal_mapped(scene)
+    meshes: list[dict[str, Any]] = []
+    for i, mesh in enumerate(scene.meshes):
+        meshes.append(mesh_entry(with_tangents(mesh) if i in bumpy else mesh, buffer))
+        progress((i + 1) / len(scene.meshes))
+    images = [
+        image | {"data": buffer.append_bytes(data), "byteLength": len(data)} for image, data in looks.images
+    ]
     file.flush()
     os.fsync(file.fileno())
     if os.name == "nt":  # which renames no open file
         file.close()
     digest = buffer.hash.hexdigest()
     path = target.with_name(f"{target.name}.{digest[:HASH_DIGITS]}.bin")
-    return path, {"uri": path.name, "byteLength": buffer.length, "sha256": digest}, entries
-
-
-def _mesh_entry(mesh: Mesh, buffer: _Buffer) -> dict[str, Any]:
-    """One mesh in the buffer, and its entry in the scene."""
-    count = len(mesh.vertices)
-    low, high = bounds(np.asarray(mesh.vertices, dtype=np.float64))
-    short = count <= UINT16_VERTICES
-    found: dict[str, Any] = {
-        "name": mesh.name,
-        "vertexCount": count,
-        "bounds": plain_value(
-            {"center": (0.5 * (low + high)).tolist(), "extents": (0.5 * (high - low)).tolist()}
-        ),
-        "positions": buffer.append(mesh.vertices, "f4"),
-    }
-    if mesh.normals is not None:
-        found["normals"] = buffer.append(mesh.normals, "f4")
-    if mesh.uvs:
-        found["uv"] = buffer.append(mesh.uvs[0], "f4")
-    found["indexFormat"] = "uint16" if short else "uint32"
-    found["indices"] = buffer.append(mesh.triangles, "u2" if short else "u4")
-    starts = np.cumsum([0, *mesh.submeshes])[:-1]
-    found["submeshes"] = [
-        {"indexStart": 3 * int(s), "indexCount": 3 * int(n)} for s, n in zip(starts, mesh.submeshes)
-    ]
-    return found
+    stated = {"uri": path.name, "byteLength": buffer.length, "sha256": digest}
+    found = {"buffers": [stated], "meshes": meshes, "images": images}
+    return path, {key: value for key, value in found.items() if value}
 
 
 def canonical_json(content: dict[str, Any]) -> Iterator[str]:

@@ -10,7 +10,7 @@ from typing import Any, cast
 from ..unity.definitions import NONE, Noun, Property, definition_of, definitions, properties
 from .numbers import plain_value, significant, whole_numbers
 
-SIGNIFICANT = frozenset({"mass", "inertiaTensor", "ratio"})
+SIGNIFICANT = frozenset({"mass", "inertiaTensor", "ratio", "armature"})
 """Fields whose size says nothing about their precision; all others are lengths, directions and angles."""
 
 LEFT_OUT_EMPTY = frozenset({"because", "localPosition", "localRotation"})
@@ -39,12 +39,18 @@ def unsaid(noun: type[Noun]) -> Mapping[str, Any]:
 
 
 @cache
+def newer_keys(definition: str) -> frozenset[str]:
+    """Fields of a definition that format 1.0 lacks."""
+    return frozenset(rule.key for rule in properties(definition) if rule.newer)
+
+
+@cache
 def _newer(noun: type[Noun]) -> Mapping[str, Any] | None:
     """Fields of a noun that format 1.0 lacks, each with the value that is not written; None for a noun that it lacks."""
     definition = definition_of(noun)
     if "since" in definitions()[definition]:
         return None
-    keys = {rule.key for rule in properties(definition) if rule.newer}
+    keys = newer_keys(definition)
     return {field.name: field.default for field in fields(noun) if field.name in keys}
 
 

@@ -2,12 +2,34 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
+from ..unity.scene import Mesh, MeshFilter, MeshRenderer, UnityScene
+
 Reals = NDArray[np.floating[Any]]
+
+
+def normal_mapped(scene: UnityScene) -> set[int]:
+    """Meshes that show a normal map."""
+    found: set[int] = set()
+    for entry in scene.gameObjects:
+        shown_materials = [
+            scene.materials[m] for c in entry.components if isinstance(c, MeshRenderer) for m in c.materials
+        ]
+        if any(material.normalTexture is not None for material in shown_materials):
+            found |= {c.mesh for c in entry.components if isinstance(c, MeshFilter)}
+    return found
+
+
+def with_tangents(mesh: Mesh) -> Mesh:
+    """The mesh with tangents along the first texture coordinates; as it is where it has them, or nothing to make them of."""
+    if mesh.tangents is not None or mesh.normals is None or not mesh.uvs:
+        return mesh
+    return replace(mesh, tangents=tangents_along(mesh.vertices, mesh.normals, mesh.uvs[0], mesh.triangles))
 
 
 def tangents_along(

@@ -13,6 +13,9 @@ from ..diagnostics import schema_directory
 RENAMED = {"Mobility": "analysis", "AnimationClip": "animation"}
 """Nouns whose definition in the schema has another name than their own with a small initial."""
 
+UV_SETS = ("uv", *(f"uv{i}" for i in range(2, 9)))
+"""A mesh's sets of texture coordinates, by their names in Unity and in the file."""
+
 
 class Noun(Protocol):
     """Any of ``unity.scene``'s dataclasses."""

@@ -23,7 +23,7 @@ from .bodies.rigidbodies import Rigidbodies, carried_along, held_below, map_rigi
 from .constraints import map_constraint
 from .joints.couplings import map_coupling, screw_couplings
 from .joints.mapping import UnityJoint, map_joint
-from .joints.passive import with_passive_drives
+from .joints.passive import stated_of, with_passive_drives
 from .mobility import map_mobility
 from .placing import local_transforms, transform_of
 from .scene import (
@@ -43,6 +43,7 @@ from .scene import (
 from .scene import Joint as JointComponent
 from .scene.colliders.collider import Collider as UnityCollider
 from .scene.joints.configurable_joint import APART
+from .scene.joints.joint import AnchoredJoint
 from .scene.vectors import vector3
 
 GROUND_ID = "kinefab:ground"
@@ -269,6 +270,8 @@ class _Builder:
                 continue
             connected = self.ground if mapped.connected is None else self.object_of[mapped.connected]
             component = replace(mapped.component, connectedBody=connected)
+            if isinstance(component, AnchoredJoint):
+                component = replace(component, **stated_of(joint))
             components = self.components[self.object_of[mapped.owner]]
             components.append(component)
             self.joints[joint.id] = (mapped, len(components) - 1)

@@ -132,7 +132,7 @@ public class SceneFileTests
     [TestCase(true, Severity.Error)]
     public void Parse_UnknownField_IsAnErrorOnlyWhenStrict(bool strict, Severity expected)
     {
-        byte[] text = Encoding.UTF8.GetBytes(OneObject.Replace("EXTRA", ", \"layer\": 3", StringComparison.Ordinal));
+        byte[] text = Encoding.UTF8.GetBytes(OneObject.Replace("EXTRA", ", \"no_field\": 3", StringComparison.Ordinal));
         SceneReading reading = SceneFile.Parse(text, null, new SceneReadOptions { Strict = strict });
         using (Assert.EnterMultipleScope())
         {

@@ -17,7 +17,9 @@ public class SceneSavingTests
 {
     private static readonly string Repository = Path.GetFullPath(Path.Combine(ConformanceCases.Folder, "..", ".."));
 
-    private static IEnumerable<string> Exported => new[] { "fixtures", "csharp/examples/LeverTests" }
+    private static readonly string[] Folders = ["fixtures", "csharp/examples/LeverTests"];
+
+    private static IEnumerable<string> Exported => Folders
         .SelectMany(folder => Directory.GetFiles(Path.Combine(Repository, folder), "*.kinefab", SearchOption.AllDirectories))
         .Where(path => !path.Contains("/bin/", StringComparison.Ordinal))
         .Select(path => Path.GetRelativePath(Repository, path)).Order(StringComparer.Ordinal);

@@ -108,6 +108,7 @@ public class SchemaAgreementTests
 
     private static string Text(object value) => value switch
     {
+        Vector2d v => $"[{v.X} {v.Y}]",
         Vector3d v => $"[{v.X} {v.Y} {v.Z}]",
         Quaterniond q => $"[{q.X} {q.Y} {q.Z} {q.W}]",
         Color c => $"[{c.R} {c.G} {c.B} {c.A}]",

@@ -58,7 +58,7 @@ public sealed class FreedomTests
     public void ShortName_WhereTheCadTellsOne_IsTheCads()
     {
         Mechanism mechanism = Mechanism.Load(Lever);
-        Assert.That(mechanism.ChooseFreedoms().Select(i => mechanism.Coordinates[i].ShortName), Is.EqualTo(new[] { "Shaft" }));
+        Assert.That(mechanism.ChooseFreedoms().Select(i => mechanism.Coordinates[i].ShortName).Single(), Is.EqualTo("Shaft"));
     }
 
     // Crank and slide are asked of one state that never stops, and of another that is written and read at every step.

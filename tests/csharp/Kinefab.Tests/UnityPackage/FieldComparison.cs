@@ -14,10 +14,10 @@ namespace Kinefab.Tests.UnityPackage;
 internal sealed class FieldComparison
 {
     // What of the format is about the source, not for Unity.
-    private static readonly HashSet<string> AboutTheSource = [nameof(Joint.Id), nameof(Joint.Name), nameof(Collider.Group), nameof(Joint.Because), nameof(Joint.Closure), nameof(Joint.Exact), nameof(DocumentObject.ExtrasJson)];
+    private static readonly HashSet<string> AboutTheSource = [nameof(Joint.Id), nameof(Joint.Name), nameof(Collider.Group), nameof(AnchoredJoint.Effort), nameof(AnchoredJoint.Speed), nameof(AnchoredJoint.Friction), nameof(AnchoredJoint.Armature), nameof(Joint.Because), nameof(Joint.Closure), nameof(Joint.Exact), nameof(DocumentObject.ExtrasJson)];
 
     // What Unity calls otherwise.
-    private static readonly Dictionary<string, string> Names = new() { ["mesh"] = "sharedMesh", ["materials"] = "sharedMaterials", ["linearLock"] = "linearLockX" };
+    private static readonly Dictionary<string, string> Names = new() { ["mesh"] = "sharedMesh", ["materials"] = "sharedMaterials", ["material"] = "sharedMaterial", ["linearLock"] = "linearLockX" };
 
     private readonly HashSet<string> _met = [];
     private readonly HashSet<string> _moved = [];
@@ -94,6 +94,12 @@ internal sealed class FieldComparison
                 break;
             case nameof(Rigidbody.SolverVelocityIterations):
                 Assert.That(found, Is.EqualTo((int?)value ?? project.SolverVelocityIterations), at);
+                break;
+            case nameof(Collider.Material):
+                if (value is not int physics)
+                    Assert.That(found, Is.Null, at);
+                else
+                    Same(_scene.Document.PhysicsMaterials[physics], new PhysicsMaterial(), found!, at);
                 break;
             case nameof(MeshFilter.Mesh):
                 Assert.That(((Unity.Mesh)found!).name, Is.EqualTo(_scene.Document.Meshes[(int)value!].Name), at);

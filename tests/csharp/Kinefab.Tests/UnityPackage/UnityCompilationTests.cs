@@ -9,7 +9,7 @@ namespace Kinefab.Tests.UnityPackage;
 public sealed class UnityCompilationTests
 {
     private static IEnumerable<TestCaseData> Editors() =>
-        UnityEditors.All.SelectMany(editor => new[] { true, false }.Select(isEditor => new TestCaseData(editor, isEditor)));
+        UnityEditors.All.SelectMany<string, TestCaseData>(editor => [new(editor, true), new(editor, false)]);
 
     [TestCaseSource(nameof(Editors))]
     public void Sources_OfEveryEditor_Compile(string editor, bool isEditor)
@@ -18,4 +18,9 @@ public sealed class UnityCompilationTests
         IEnumerable<Diagnostic> errors = UnityEditors.Compile(editor, isEditor, inputs[0]).GetDiagnostics().Where(d => d.Severity == DiagnosticSeverity.Error);
         Assert.That(errors.Select(d => d.ToString()), Is.Empty);
     }
+
+    [TestCase("2021.3")]
+    [TestCase("6000.7")]
+    public void Tests_OfThePackage_Compile(string editor) =>
+        Assert.That(UnityEditors.CompileTests(editor).GetDiagnostics().Where(d => d.Severity == DiagnosticSeverity.Error).Select(d => d.ToString()), Is.Empty);
 }

@@ -34,6 +34,15 @@ internal static class UnityEditors
         return CSharpCompilation.Create("Kinefab.Unity", trees, References(), new CSharpCompilationOptions(OutputKind.DynamicallyLinkedLibrary));
     }
 
+    /// <summary>The package's own tests too, which Unity's runner runs.</summary>
+    public static CSharpCompilation CompileTests(string editor)
+    {
+        CSharpCompilation all = Compile(editor, isEditor: true, "ENABLE_LEGACY_INPUT_MANAGER", "UNITY_INCLUDE_TESTS");
+        var options = (CSharpParseOptions)all.SyntaxTrees[0].Options;
+        return all.AddSyntaxTrees(Sources(Package("Tests")).Select(path => CSharpSyntaxTree.ParseText(File.ReadAllText(path), options, path)))
+            .AddReferences(MetadataReference.CreateFromFile(typeof(global::NUnit.Framework.TestAttribute).Assembly.Location));
+    }
+
     /// <summary>Whether a file is the package's, not a stand-in.</summary>
     public static bool IsPackage(string path) => !path.StartsWith(StandIns, System.StringComparison.Ordinal);
 

@@ -23,6 +23,11 @@ internal static class UnityImportScene
             BounceThreshold = 3,
             DefaultMaxAngularSpeed = 9,
         },
+        PhysicsMaterials =
+        [
+            new PhysicsMaterial { Name = "Plain" },
+            new PhysicsMaterial { Name = "Rubber", DynamicFriction = 0.7, StaticFriction = 0.9, Bounciness = 0.25, FrictionCombine = PhysicsMaterialCombine.Maximum, BounceCombine = PhysicsMaterialCombine.Multiply },
+        ],
         GameObjects =
         [
             new GameObject { Id = "root", Name = "Root", Transform = Place(new Vector3d(2, 2, 2)) },
@@ -134,9 +139,9 @@ internal static class UnityImportScene
 
     private static Component[] Colliders() =>
     [
-        new BoxCollider { Center = Odd, Size = new Vector3d(1, 2, 3), IsTrigger = true, Enabled = false },
-        new SphereCollider { Center = Odd, Radius = 0.7, IsTrigger = true, Enabled = false },
-        new CapsuleCollider { Center = Odd, Radius = 0.3, Height = 1.5, Direction = Axis.Z, IsTrigger = true, Enabled = false },
+        new BoxCollider { Center = Odd, Size = new Vector3d(1, 2, 3), IsTrigger = true, Enabled = false, Material = 1 },
+        new SphereCollider { Center = Odd, Radius = 0.7, IsTrigger = true, Enabled = false, Material = 1 },
+        new CapsuleCollider { Center = Odd, Radius = 0.3, Height = 1.5, Direction = Axis.Z, IsTrigger = true, Enabled = false, Material = 1 },
     ];
 
     private static SoftJointLimit Limit(double limit) => new() { Limit = limit, Bounciness = 0.25, ContactDistance = 0.125 };

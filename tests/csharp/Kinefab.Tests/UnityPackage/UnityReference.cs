@@ -30,7 +30,7 @@ internal sealed class UnityReference
         for (HashSet<string> next = [.. wanted]; next.Count > 0;)
         {
             string pattern = $"(class|struct|enum|interface) ({string.Join('|', next)})\\b";
-            foreach (string file in Git(repository, "grep", "-l", "-E", pattern, tag, "--", "Runtime", "Editor", "Modules").Split('\n', StringSplitOptions.RemoveEmptyEntries))
+            foreach (string file in Git(repository, "grep", "-l", "-E", pattern, tag, "--", "Runtime", "Editor", "Modules", "artifacts").Split('\n', StringSplitOptions.RemoveEmptyEntries))
             {
                 if (file.EndsWith(".cs", StringComparison.Ordinal) && !file.Contains("/Tests/", StringComparison.Ordinal) && seen.Add(file))
                     reference.Add(Git(repository, "show", file));

@@ -101,5 +101,5 @@ public sealed class UnityReferenceTests
 
     private static bool Same(string own, string unitys) =>
         own == unitys || own.Replace("Single", "float", StringComparison.Ordinal) == unitys || (own.EndsWith("[]", StringComparison.Ordinal) && unitys.EndsWith("[]", StringComparison.Ordinal) && Same(own[..^2], UnityReference.Simple(unitys[..^2])))
-        || own.TrimEnd('?') == unitys.TrimEnd('?') || own is "T" or "Type" && unitys is "T" or "Type" or "System.Type";
+        || own.TrimEnd('?') == unitys.TrimEnd('?') || (own == "T" && unitys.Length <= 2 && unitys[0] == 'T') || (own == "Type" && unitys == "System.Type");
 }

@@ -39,6 +39,27 @@ public class ValidSceneTests
         Assert.That((scene.BodyOf(0), scene.BodyOf(1), scene.BodyOf(2)), Is.EqualTo(((int?)null, (int?)1, (int?)1)));
     }
 
+    [TestCase(false, false, 0.5, -0.25, -1)]
+    [TestCase(false, true, 0.5, -1, 0.25)]
+    [TestCase(true, false, 0, 0, 0)]
+    public void AnchorGap_OfASlide_IsFromTheConnectedAnchorToTheOwn(bool automatic, bool turnedAxes, double x, double y, double z)
+    {
+        var joint = new ConfigurableJoint
+        {
+            ConnectedBody = 0,
+            Anchor = new Vector3d(0.5, 0, 0),
+            AutoConfigureConnectedAnchor = automatic,
+            ConnectedAnchor = new Vector3d(2, 0.25, 1),
+            Axis = Vector3d.UnitX,
+            SecondaryAxis = turnedAxes ? Vector3d.UnitZ : Vector3d.UnitY,
+        };
+        ValidScene scene = Validate(
+            new GameObject { Id = "base", Components = [new Rigidbody()] },
+            new GameObject { Id = "slide", Transform = new Transform { LocalPosition = new(2, 0, 0) }, Components = [new Rigidbody(), joint] });
+        Assert.That((scene.AnchorGap(1, 1) - new Vector3d(x, y, z)).Length, Is.LessThan(1e-15));
+        Assert.That(() => scene.AnchorGap(1, 0), Throws.InstanceOf<ArgumentOutOfRangeException>());
+    }
+
     [Test]
     public void Mesh_OfALoadedScene_ShowsTheNumbersOfTheBuffer()
     {

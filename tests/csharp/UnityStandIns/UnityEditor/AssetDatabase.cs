@@ -30,6 +30,10 @@ namespace UnityEditor
 
         public static void CreateAsset(Object asset, string path) => Assets[path] = new[] { asset };
 
+        public static string CreateFolder(string parentFolder, string newFolderName) => $"{parentFolder}/{newFolderName}";
+
+        public static bool DeleteAsset(string path) => Assets.Remove(path);
+
         public static string GenerateUniqueAssetPath(string path) => path;
 
         public static bool WriteImportSettingsIfDirty(string path) => true;

@@ -1,3 +1,4 @@
+// No newer than C# 7: the test of the script that prefabs carry compiles it by Mono, too.
 using System;
 
 namespace UnityEngine

@@ -112,8 +112,51 @@ namespace UnityEngine
         public static float defaultMaxAngularSpeed { get; set; } = 50;
     }
 
+#if UNITY_6000_0_OR_NEWER
+    public enum PhysicsMaterialCombine
+#else
+    public enum PhysicMaterialCombine
+#endif
+    {
+        Average = 0,
+        Multiply = 1,
+        Minimum = 2,
+        Maximum = 3,
+    }
+
+#if UNITY_6000_0_OR_NEWER
+    public sealed class PhysicsMaterial : Object
+    {
+        public PhysicsMaterial(string name) => this.name = name;
+
+        public PhysicsMaterialCombine frictionCombine { get; set; }
+
+        public PhysicsMaterialCombine bounceCombine { get; set; }
+#else
+    public sealed class PhysicMaterial : Object
+    {
+        public PhysicMaterial(string name) => this.name = name;
+
+        public PhysicMaterialCombine frictionCombine { get; set; }
+
+        public PhysicMaterialCombine bounceCombine { get; set; }
+#endif
+
+        public float dynamicFriction { get; set; } = 0.6f;
+
+        public float staticFriction { get; set; } = 0.6f;
+
+        public float bounciness { get; set; }
+    }
+
     public partial class Collider : Component
     {
+#if UNITY_6000_0_OR_NEWER
+        public PhysicsMaterial sharedMaterial { get; set; }
+#else
+        public PhysicMaterial sharedMaterial { get; set; }
+#endif
+
         public bool enabled { get; set; } = true;
 
         public bool isTrigger { get; set; }

@@ -202,6 +202,12 @@ namespace UnityEngine
             return default;
         }
 
+        public T GetComponentInChildren<T>(bool includeInactive = false)
+        {
+            T[] found = GetComponentsInChildren<T>(includeInactive);
+            return found.Length > 0 ? found[0] : default;
+        }
+
         public T[] GetComponentsInChildren<T>(bool includeInactive = false)
         {
             var found = new List<T>();

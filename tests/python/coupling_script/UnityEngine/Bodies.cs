@@ -32,7 +32,7 @@ namespace UnityEngine
         ContinuousSpeculative = 3,
     }
 
-    public sealed class Rigidbody : Component
+    public sealed partial class Rigidbody : Component
     {
         public float mass { get; set; } = 1;
 
@@ -86,50 +86,5 @@ namespace UnityEngine
         public static int defaultSolverVelocityIterations { get; set; } = 1;
 
         public static float defaultMaxAngularSpeed { get; set; } = 50;
-    }
-
-    public class Collider : Component
-    {
-        public bool enabled { get; set; } = true;
-
-        public bool isTrigger { get; set; }
-    }
-
-    public sealed class BoxCollider : Collider
-    {
-        public Vector3 center { get; set; }
-
-        public Vector3 size { get; set; } = new Vector3(1, 1, 1);
-    }
-
-    public sealed class SphereCollider : Collider
-    {
-        public Vector3 center { get; set; }
-
-        public float radius { get; set; } = 0.5f;
-    }
-
-    public sealed class CapsuleCollider : Collider
-    {
-        public Vector3 center { get; set; }
-
-        public float radius { get; set; } = 0.5f;
-
-        public float height { get; set; } = 1;
-
-        public int direction { get; set; } = 1;
-    }
-
-    public sealed class MeshCollider : Collider
-    {
-        private bool _convex;
-
-        public Mesh sharedMesh { get; set; }
-
-        public bool convex
-        {
-            get => _convex;
-            set => _convex = sharedMesh == null ? value : throw new InvalidOperationException("Unity has cooked the other shape already.");
-        }
     }
 }

@@ -48,7 +48,7 @@ namespace UnityEngine
         public T GetComponent<T>() => (T)(object)Components.Find(c => c is T);
     }
 
-    public sealed class Transform : Component
+    public sealed partial class Transform : Component
     {
         private Vector3 _localPosition;
         private Quaternion _localRotation = new Quaternion(0, 0, 0, 1);

@@ -133,7 +133,7 @@ internal sealed class DriveSite
         foreach ((string field, string label, JointDrive drive, (Coordinate Axis, ConfigurableJointMotion Motion)[] axes) in all)
         {
             Coordinate[] free = axes.Where(a => a.Motion != ConfigurableJointMotion.Locked).Select(a => a.Axis).ToArray();
-            if (free.Length > 0 && (drive.PositionSpring > 0 || drive.PositionDamper > 0) && drive.MaximumForce > 0)
+            if (free.Length > 0 && drive.IsActive)
                 yield return new DriveSite(joint, place, field, label, free, drive.PositionSpring, drive.PositionDamper, drive.MaximumForce);
         }
     }

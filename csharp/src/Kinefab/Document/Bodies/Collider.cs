@@ -14,6 +14,10 @@ public abstract record Collider : Component
     /// <summary>Collider.enabled.</summary>
     public bool Enabled { get; init; } = true;
 
+    /// <summary>Index into <see cref="SceneDocument.PhysicsMaterials"/>; null: Unity's default.</summary>
+    [Since(1)]
+    public int? Material { get; init; }
+
     /// <summary>The source's collision group or layer; null for none.</summary>
     [Since(1)]
     public string? Group { get; init; }

@@ -20,4 +20,20 @@ public abstract record AnchoredJoint : Joint
 
     /// <summary>Connected body's local space (scaled), or the world's when there is none; metres.</summary>
     public Vector3d ConnectedAnchor { get; init; }
+
+    /// <summary>Largest force of whatever drives a coordinate that moves, N or N m; infinite: not stated. Neither solver follows it.</summary>
+    [Since(1)]
+    public double Effort { get; init; } = double.PositiveInfinity;
+
+    /// <summary>Largest rate of a coordinate that moves, m/s or degrees/s; infinite: not stated. Neither solver follows it.</summary>
+    [Since(1)]
+    public double Speed { get; init; } = double.PositiveInfinity;
+
+    /// <summary>Largest dry friction of a coordinate that moves, N or N m. Neither solver follows it.</summary>
+    [Since(1)]
+    public double Friction { get; init; }
+
+    /// <summary>Inertia that moves with a coordinate, kg or kg m^2. Neither solver follows it.</summary>
+    [Since(1)]
+    public double Armature { get; init; }
 }

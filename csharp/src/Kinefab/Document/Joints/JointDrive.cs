@@ -18,5 +18,8 @@ public sealed partial record JointDrive : DocumentObject
     /// <summary>Spring and damper give accelerations instead of forces.</summary>
     public bool UseAcceleration { get; init; }
 
+    /// <summary>Whether it pulls or brakes at all.</summary>
+    internal bool IsActive => MaximumForce > 0 && (PositionSpring > 0 || PositionDamper > 0);
+
     private protected override string Describe() => Line($"drive with spring {PositionSpring}, damper {PositionDamper}, at most {MaximumForce}{(UseAcceleration ? ", as acceleration" : "")}");
 }

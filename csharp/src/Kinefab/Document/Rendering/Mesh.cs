@@ -28,6 +28,42 @@ public sealed partial record Mesh : DocumentObject
     /// <summary>float32 x 2 a vertex; null when there are none.</summary>
     public Accessor? Uv { get; init; }
 
+    /// <summary>float32 x 2 a vertex; null when there are none.</summary>
+    [Since(1)]
+    public Accessor? Uv2 { get; init; }
+
+    /// <summary>float32 x 2 a vertex; null when there are none.</summary>
+    [Since(1)]
+    public Accessor? Uv3 { get; init; }
+
+    /// <summary>float32 x 2 a vertex; null when there are none.</summary>
+    [Since(1)]
+    public Accessor? Uv4 { get; init; }
+
+    /// <summary>float32 x 2 a vertex; null when there are none.</summary>
+    [Since(1)]
+    public Accessor? Uv5 { get; init; }
+
+    /// <summary>float32 x 2 a vertex; null when there are none.</summary>
+    [Since(1)]
+    public Accessor? Uv6 { get; init; }
+
+    /// <summary>float32 x 2 a vertex; null when there are none.</summary>
+    [Since(1)]
+    public Accessor? Uv7 { get; init; }
+
+    /// <summary>float32 x 2 a vertex; null when there are none.</summary>
+    [Since(1)]
+    public Accessor? Uv8 { get; init; }
+
+    /// <summary>float32 x 4 a vertex: unit, and the sense of the bitangent; null when there are none.</summary>
+    [Since(1)]
+    public Accessor? Tangents { get; init; }
+
+    /// <summary>float32 x 4 a vertex, linear red, green, blue and alpha; null when there are none.</summary>
+    [Since(1)]
+    public Accessor? Colors { get; init; }
+
     /// <summary>Size of an index.</summary>
     [Field(Required = true)]
     public IndexFormat IndexFormat { get; init; }

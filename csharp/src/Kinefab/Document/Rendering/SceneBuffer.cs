@@ -1,13 +1,18 @@
 using System;
+using System.Buffers;
 using System.Globalization;
 using System.Linq;
 using System.Security.Cryptography;
+using System.Threading;
 
 namespace Kinefab.Document;
 
 /// <summary>Binary data: a file beside the scene, or a part of the scene's own.</summary>
 public sealed partial record SceneBuffer : DocumentObject
 {
+    // Bytes hashed between two looks for a cancellation.
+    private const int MostHashedAtOnce = 1 << 20;
+
     private ReadOnlyMemory<byte>? data;
 
     /// <summary>File name relative to the scene's folder; never absolute, never with "..". Null: the buffer lies in the scene's own file.</summary>
@@ -45,12 +50,24 @@ public sealed partial record SceneBuffer : DocumentObject
     /// <summary>With the size of its data; what is stated as their hash is kept.</summary>
     internal SceneBuffer Stated() => this with { ByteLength = data!.Value.Length, Sha256 = Sha256.Length > 0 ? Sha256 : Hash(data.Value.Span) };
 
-    private static string Hash(ReadOnlySpan<byte> bytes)
+    /// <summary>SHA-256, 64 lower-case hexadecimal digits.</summary>
+    internal static string Hash(ReadOnlySpan<byte> bytes, CancellationToken cancellation = default)
     {
-        Span<byte> hash = stackalloc byte[32];
-        using var algorithm = SHA256.Create();
-        algorithm.TryComputeHash(bytes, hash, out _);
-        return string.Concat(hash.ToArray().Select(b => b.ToString("x2", CultureInfo.InvariantCulture)));
+        using var algorithm = IncrementalHash.CreateHash(HashAlgorithmName.SHA256);
+
+        // netstandard2.1 hashes arrays alone.
+        byte[] part = ArrayPool<byte>.Shared.Rent(MostHashedAtOnce);
+        while (bytes.Length > 0)
+        {
+            cancellation.ThrowIfCancellationRequested();
+            int length = Math.Min(bytes.Length, part.Length);
+            bytes.Slice(0, length).CopyTo(part);
+            algorithm.AppendData(part, 0, length);
+            bytes = bytes.Slice(length);
+        }
+
+        ArrayPool<byte>.Shared.Return(part);
+        return string.Concat(algorithm.GetHashAndReset().Select(value => value.ToString("x2", CultureInfo.InvariantCulture)));
     }
 
     private protected override string Describe() => $"buffer {Uri ?? "in the scene's file"} of {ByteLength} bytes{(Data is null ? ", not loaded" : "")}";

@@ -40,8 +40,16 @@ public sealed partial record SceneDocument : DocumentObject
     /// <summary>Meshes.</summary>
     public IReadOnlyList<Mesh> Meshes { get; init; } = Array.Empty<Mesh>();
 
+    /// <summary>Image files of textures.</summary>
+    [Since(1)]
+    public IReadOnlyList<Image> Images { get; init; } = Array.Empty<Image>();
+
     /// <summary>Materials.</summary>
     public IReadOnlyList<Material> Materials { get; init; } = Array.Empty<Material>();
+
+    /// <summary>Of colliders.</summary>
+    [Since(1)]
+    public IReadOnlyList<PhysicsMaterial> PhysicsMaterials { get; init; } = Array.Empty<PhysicsMaterial>();
 
     /// <summary>Flat and ordered: a parent stands before its children.</summary>
     [Field(Required = true, Into = nameof(gameObjects))]
@@ -68,6 +76,20 @@ public sealed partial record SceneDocument : DocumentObject
 
     /// <summary>The exporter's loss report.</summary>
     public IReadOnlyList<ReportEntry> Report { get; init; } = Array.Empty<ReportEntry>();
+
+    /// <summary>The bytes of an image's file, without a copy; empty where the buffer is not loaded or does not hold them.</summary>
+    /// <param name="image">One of <see cref="Images"/>.</param>
+    /// <returns>A part of the buffer's memory.</returns>
+    public ReadOnlyMemory<byte> BytesOf(Image image)
+    {
+        if (image is null)
+            throw new ArgumentNullException(nameof(image));
+        if ((uint)image.Data.Buffer >= (uint)Buffers.Count || Buffers[image.Data.Buffer].Data is not { } bytes)
+            return default;
+        long offset = image.Data.Offset;
+        bool isInside = offset >= 0 && offset <= bytes.Length && image.ByteLength >= 0 && image.ByteLength <= bytes.Length - offset;
+        return isInside ? bytes.Slice((int)offset, (int)image.ByteLength) : default;
+    }
 
     /// <summary>The UTF-8 text that this very scene was read from, for the places of later findings; empty when there is none, as for a changed copy.</summary>
     internal ReadOnlyMemory<byte> Text

@@ -47,6 +47,7 @@ public sealed partial class World
     /// lowest byte first: centre of mass x, y, z (m); rotation of the principal axes x, y, z, w; its velocity x, y, z (m/s); angular velocity
     /// x, y, z (rad/s), all in the world frame. Forces, settings and drives that are yet to act are not in it.
     /// </summary>
+    /// <returns>The hash.</returns>
     /// <example><code>
     /// ulong first = World.Load("lever.kinefab").StateHash();
     /// ulong second = World.Load("lever.kinefab").StateHash();   // the same

@@ -78,7 +78,7 @@ public sealed partial class Mechanism
         }
 
         JointModel[] all = joints.ToArray();
-        _coordinates = MechanismCoordinates.Of(definition, all, scene.Document.Couplings);
+        _coordinates = MechanismCoordinates.Of(definition, all, HoldsNothing, scene.Document.Couplings);
         foreach (MechanismCoordinate coordinate in _coordinates)
         {
             JointModel rows = coordinate.JointRows;
@@ -89,8 +89,7 @@ public sealed partial class Mechanism
         _names = new CoordinateNames(scene.Document.GameObjects, places);
         for (int i = 0; i < _coordinates.Length; i++)
         {
-            _coordinates[i].Name = _names[i];
-            _coordinates[i].ShortName = _names.Short(i);
+            _coordinates[i].TakeName(_names, i);
         }
 
         PositionCoupling[] couplings = PositionCoupling.Of(scene.Document.Couplings, _coordinates);

@@ -1,6 +1,7 @@
 using System.Diagnostics;
 using System;
 using Kinefab.Document;
+using Kinefab.Mechanisms;
 using Kinefab.Numerics;
 
 namespace Kinefab.Kinematics;
@@ -16,6 +17,10 @@ public sealed class MechanismCoordinate
 
     private readonly (double Sign, double Offset) _cad;
 
+    private CoordinateNames? _names;
+    private int _index;
+    private string? _shortName;
+
     internal MechanismCoordinate(int gameObject, int component, Coordinate coordinate, int joint, Joints.CoordinateAxisMap source, bool isLocked, (double Sign, double Offset) cad)
     {
         _cad = cad;
@@ -27,17 +32,25 @@ public sealed class MechanismCoordinate
         _coordinate = source;
     }
 
+    /// <summary>Once all coordinates are there: only then is it known what a name finds.</summary>
+    internal void TakeName(CoordinateNames names, int index)
+    {
+        _names = names;
+        _index = index;
+        Name = names[index];
+    }
+
     /// <summary>
     /// What it is called in trajectories and on the command line: the GameObject's id and the coordinate, Lever/Crank:1.angle;
     /// with the component's index, Arm:2[3].angularX, where one object carries several joints that move.
     /// </summary>
-    public string Name { get; internal set; } = "";
+    public string Name { get; private set; } = "";
 
     /// <summary>
     /// The shortest of the names that find it: what the CAD program calls its joint (Shaft), with the coordinate behind it where the
     /// joint has several (Arm.angularX); else the GameObject's id, else <see cref="Name"/>.
     /// </summary>
-    public string ShortName { get; internal set; } = "";
+    public string ShortName => _shortName ??= _names!.Short(_index);
 
     /// <summary>Index of the GameObject that carries the joint.</summary>
     public int GameObject { get; }

@@ -12,14 +12,14 @@ namespace Kinefab.Kinematics;
 internal static class MechanismCoordinates
 {
     /// <summary>In order of joint and axis.</summary>
-    public static MechanismCoordinate[] Of(MechanismDefinition definition, JointModel[] joints, IReadOnlyList<Coupling> couplings)
+    public static MechanismCoordinate[] Of(MechanismDefinition definition, JointModel[] joints, bool[] holdsNothing, IReadOnlyList<Coupling> couplings)
     {
         var coordinates = new List<MechanismCoordinate>();
         for (int j = 0; j < definition.Joints.Count; j++)
         {
             JointDefinition source = definition.Joints[j];
             int locked = MotionSubspace.LockedAxes(joints[j]);
-            if (locked == 0 && JointExtras.KeepsApart(source.Source))
+            if (holdsNothing[j])
             {
                 continue; // it stands for no joint of the source: nobody asks how far it is
             }

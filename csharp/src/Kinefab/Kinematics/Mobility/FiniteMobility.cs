@@ -94,30 +94,7 @@ internal sealed class FiniteMobility
     // A step along a mixture of all allowed velocities, the same on every machine; undone when the joints do not close.
     private void Walk(MechanismState state, int round)
     {
-        var space = new VelocitySpace(_linkage, _newton, _blocks, state);
-        var step = new double[_newton.Motion.Linear.Length];
-        int k = 0;
-        foreach (double[] vector in space.Basis)
-        {
-            k++;
-            double weight = Trigonometry.Sin(12.9898 * k + 4.1414 * round);
-            for (int i = 0; i < step.Length; i++)
-            {
-                step[i] += weight * vector[i];
-            }
-        }
-
-        double largest = 0;
-        foreach (double entry in step)
-        {
-            largest = Math.Max(largest, Math.Abs(entry));
-        }
-
-        for (int i = 0; i < step.Length && largest > 0; i++)
-        {
-            step[i] *= WalkLength / largest;
-        }
-
+        double[] step = new VelocitySpace(_linkage, _newton, _blocks, state).Mixture(round, WalkLength);
         MechanismState before = state.Clone();
         _newton.Motion.Start(state.Poses);
         _newton.Motion.Move(state.Poses, step);

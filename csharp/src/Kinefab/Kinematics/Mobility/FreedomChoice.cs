@@ -150,7 +150,7 @@ internal sealed class FreedomChoice
         _mechanism.Scene.Document.GameObjects[coordinate.GameObject].Components[coordinate.Component] switch
         {
             HingeJoint hinge => (hinge.UseMotor && hinge.Motor.Force > 0) || (hinge.UseSpring && hinge.Spring.Spring > 0),
-            ConfigurableJoint joint => IsActive(coordinate.Coordinate switch
+            ConfigurableJoint joint => (coordinate.Coordinate switch
             {
                 Coordinate.X => joint.XDrive,
                 Coordinate.Y => joint.YDrive,
@@ -158,7 +158,7 @@ internal sealed class FreedomChoice
                 _ when joint.RotationDriveMode == RotationDriveMode.Slerp => joint.SlerpDrive,
                 Coordinate.AngularX => joint.AngularXDrive,
                 _ => joint.AngularYZDrive,
-            }),
+            }).IsActive,
             ArticulationBody link => (coordinate.Coordinate switch
             {
                 Coordinate.AngularY => link.YDrive,
@@ -167,6 +167,4 @@ internal sealed class FreedomChoice
             }).IsActive,
             _ => false,
         };
-
-    private static bool IsActive(JointDrive drive) => drive.MaximumForce > 0 && (drive.PositionSpring > 0 || drive.PositionDamper > 0);
 }

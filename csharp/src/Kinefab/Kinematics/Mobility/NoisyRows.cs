@@ -43,7 +43,7 @@ internal static class NoisyRows
         double allowed = Allowed * (worst + Way * (rank >= 0 ? values.Values[rank] : 0));
         for (int trial = 0; trial < Trials; trial++)
         {
-            double[] step = Mixture(here, trial);
+            double[] step = here.Mixture(trial, Way);
             for (int i = 0; i < Chords; i++)
             {
                 TakeBack(step, Errors(newton, state, step, out _), rows, values, rank);
@@ -56,28 +56,6 @@ internal static class NoisyRows
         }
 
         return true;
-    }
-
-    // All velocities, the same mixture on every machine.
-    private static double[] Mixture(VelocitySpace here, int trial)
-    {
-        var step = new double[here.Basis[0].Length];
-        for (int k = 0; k < here.Basis.Count; k++)
-        {
-            double weight = Trigonometry.Sin(12.9898 * (k + 1) + 4.1414 * trial);
-            for (int i = 0; i < step.Length; i++)
-            {
-                step[i] += weight * here.Basis[k][i];
-            }
-        }
-
-        double largest = Largest(step);
-        for (int i = 0; i < step.Length; i++)
-        {
-            step[i] *= Way / largest;
-        }
-
-        return step;
     }
 
     // The least step that the rows at the start ask for: by the kept singular values alone.

@@ -67,6 +67,35 @@ internal sealed class VelocitySpace
     /// <summary>Number of independent velocities.</summary>
     public int Freedoms => _basis.Count;
 
+    /// <summary>A step along a mixture of all velocities, the same on every machine; zero where there are none.</summary>
+    /// <param name="round">Another mixture for each.</param>
+    /// <param name="length">Of its largest entry, radians or lengths.</param>
+    public double[] Mixture(int round, double length)
+    {
+        var step = new double[Linear.Length];
+        for (int k = 0; k < _basis.Count; k++)
+        {
+            double weight = Trigonometry.Sin(12.9898 * (k + 1) + 4.1414 * round);
+            for (int i = 0; i < step.Length; i++)
+            {
+                step[i] += weight * _basis[k][i];
+            }
+        }
+
+        double largest = 0;
+        foreach (double entry in step)
+        {
+            largest = Math.Max(largest, Math.Abs(entry));
+        }
+
+        for (int i = 0; i < step.Length && largest > 0; i++)
+        {
+            step[i] *= length / largest;
+        }
+
+        return step;
+    }
+
     /// <summary>For each freedom the velocity at the mechanism's origin, in its lengths.</summary>
     private Vector3d[] Linear { get; }
 

@@ -12,6 +12,9 @@ internal static class BlockCholesky<V>
 {
     private const int Five = 5;
 
+    // Instead of a number of columns, which may be none.
+    private const int Triangle = -1;
+
     // A pivot lost to rounding is replaced, so that the result stays finite; the caller's residual then tells.
     private const double LeastPivot = 1e-30;
 
@@ -32,7 +35,7 @@ internal static class BlockCholesky<V>
                 Forward(a, diagonal, a, x, n, below[i].Size);
                 for (int k = 0; k <= i; k++)
                 {
-                    SubtractProduct(a, column.Products[product++] * w, x, below[i].Size, a, below[k].Offset * w, k < i ? below[k].Size : 0, n);
+                    SubtractProduct(a, column.Products[product++] * w, x, below[i].Size, a, below[k].Offset * w, k < i ? below[k].Size : Triangle, n);
                 }
             }
         }
@@ -232,15 +235,15 @@ internal static class BlockCholesky<V>
         (x0 * Lane<V>.Load(a, g - stride)).Store(b, at);
     }
 
-    // C -= X Y^T, X m x n, Y k x n; with k = 0 the lower triangle of C -= X X^T.
+    // C -= X Y^T, X m x n, Y k x n; for Triangle the lower triangle of C -= X X^T.
     [MethodImpl(MethodImplOptions.NoInlining)]
     private static void SubtractProduct(double[] b, int c, int x, int m, double[] a, int y, int k, int n)
     {
         int w = Lane<V>.Width;
-        int columns = k > 0 ? k : m;
+        int columns = k == Triangle ? m : k;
         for (int i = 0; i < m; i++, x += n * w, c += columns * w)
         {
-            int end = c + (k > 0 ? k : i + 1) * w;
+            int end = c + (k == Triangle ? i + 1 : k) * w;
             int t = 0;
             if (n >= Five)
             {

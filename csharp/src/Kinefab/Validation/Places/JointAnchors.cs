@@ -11,7 +11,11 @@ internal static class JointAnchors
         own.Pose.Point(Vector3d.Scale(own.Scale, joint.Anchor))
         - connected.Pose.Point(Vector3d.Scale(connected.Scale, joint.ConnectedAnchor));
 
-    /// <summary>The same along the joint's X, Y and Z.</summary>
+    /// <summary>The same along the joint's X, Y and Z; zero where Unity works the connected anchor out.</summary>
+    internal static Vector3d StartGap(ConfigurableJoint joint, WorldTransform own, WorldTransform connected) =>
+        joint.AutoConfigureConnectedAnchor ? Vector3d.Zero : GapAlongAxes(joint, own, connected);
+
+    /// <summary>The same along the joint's X, Y and Z, whoever works the connected anchor out.</summary>
     internal static Vector3d GapAlongAxes(ConfigurableJoint joint, WorldTransform own, WorldTransform connected)
     {
         Vector3d gap = Gap(joint, own, connected);

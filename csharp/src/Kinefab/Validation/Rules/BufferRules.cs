@@ -1,8 +1,6 @@
 using System;
-using System.Buffers;
 using System.Globalization;
 using System.Runtime.InteropServices;
-using System.Security.Cryptography;
 using System.Threading;
 using Kinefab.Diagnostics;
 using Kinefab.Document;
@@ -13,9 +11,6 @@ namespace Kinefab.Validation;
 /// <summary>Buffers: that they are the ones the scene was written with, and hold what meshes say they hold.</summary>
 internal static class BufferRules
 {
-    // Bytes hashed between two looks for a cancellation.
-    private const int MostAtOnce = 1 << 20;
-
     /// <summary>Whether a buffer can be used at all.</summary>
     internal static bool Check(SceneBuffer buffer, in Place at, CancellationToken cancellation)
     {
@@ -41,9 +36,11 @@ internal static class BufferRules
         return valid;
     }
 
-    /// <summary>Whether an accessor stays inside its buffer, on a multiple of 4.</summary>
-    internal static bool Accessor(Accessor accessor, long byteCount, bool[] usable, SceneDocument document, string field, in Place at)
+    /// <summary>Whether an accessor, if there is one, stays inside its buffer, on a multiple of 4.</summary>
+    internal static bool Accessor(Accessor? accessor, long byteCount, bool[] usable, SceneDocument document, string field, in Place at)
     {
+        if (accessor is null)
+            return true;
         if (!NumberRules.Reference(at, field + "/buffer", accessor.Buffer, "buffers", document.Buffers.Count))
             return false;
         if (accessor.Offset < 0 || accessor.Offset % 4 != 0)
@@ -108,33 +105,11 @@ internal static class BufferRules
 
     private static bool SameBytes(SceneBuffer buffer, in Place at, CancellationToken cancellation)
     {
-        using var algorithm = IncrementalHash.CreateHash(HashAlgorithmName.SHA256);
-
-        // netstandard2.1 hashes arrays alone.
-        byte[] part = ArrayPool<byte>.Shared.Rent(MostAtOnce);
-        for (ReadOnlySpan<byte> rest = buffer.Data!.Value.Span; rest.Length > 0;)
-        {
-            cancellation.ThrowIfCancellationRequested();
-            int length = Math.Min(rest.Length, part.Length);
-            rest.Slice(0, length).CopyTo(part);
-            algorithm.AppendData(part, 0, length);
-            rest = rest.Slice(length);
-        }
-
-        ArrayPool<byte>.Shared.Return(part);
-        byte[] hash = algorithm.GetHashAndReset();
-        for (int i = 0; i < hash.Length; i++)
-        {
-            if (hash[i] == Hex(buffer.Sha256[2 * i]) * 16 + Hex(buffer.Sha256[2 * i + 1]))
-                continue;
-            at.Report("sha256", DiagnosticCodes.BufferSha256, ("uri", buffer.Uri ?? "What lies in this file"));
-            return false;
-        }
-
-        return true;
+        if (SceneBuffer.Hash(buffer.Data!.Value.Span, cancellation) == buffer.Sha256)
+            return true;
+        at.Report("sha256", DiagnosticCodes.BufferSha256, ("uri", buffer.Uri ?? "What lies in this file"));
+        return false;
     }
-
-    private static int Hex(char c) => c <= '9' ? c - '0' : c - 'a' + 10;
 
     private static uint Largest(ReadOnlySpan<ushort> values)
     {

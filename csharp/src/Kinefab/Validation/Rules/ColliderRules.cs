@@ -29,6 +29,13 @@ internal static class ColliderRules
         NumberRules.NotNegative(at, "height", capsule.Height);
     }
 
+    internal static void Material(PhysicsMaterial material, in Place at)
+    {
+        NumberRules.NotNegative(at, "dynamicFriction", material.DynamicFriction);
+        NumberRules.NotNegative(at, "staticFriction", material.StaticFriction);
+        NumberRules.Share(at, "bounciness", material.Bounciness);
+    }
+
     /// <summary>PhysX has no moving triangle meshes: Unity refuses a concave collider on a body that is not kinematic.</summary>
     internal static void Convexity(MeshCollider mesh, Rigidbody? body, in Place at)
     {

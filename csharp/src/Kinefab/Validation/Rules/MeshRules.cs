@@ -5,7 +5,7 @@ using Kinefab.Json;
 
 namespace Kinefab.Validation;
 
-/// <summary>Meshes and materials, as far as the JSON states them.</summary>
+/// <summary>Meshes, as far as the JSON states them.</summary>
 internal static class MeshRules
 {
     internal static void Numbers(Mesh mesh, in Place at)
@@ -32,16 +32,6 @@ internal static class MeshRules
                 at.Report(field + "/indexStart", DiagnosticCodes.SubmeshGap, ("start", Invariant.Text(submesh.IndexStart)), ("expected", Invariant.Text(next)));
             next = (long)submesh.IndexStart + submesh.IndexCount;
         }
-    }
-
-    internal static void Material(Material material, in Place at)
-    {
-        NumberRules.Share(at, "color/0", material.Color.R);
-        NumberRules.Share(at, "color/1", material.Color.G);
-        NumberRules.Share(at, "color/2", material.Color.B);
-        NumberRules.Share(at, "color/3", material.Color.A);
-        NumberRules.Share(at, "metallic", material.Metallic);
-        NumberRules.Share(at, "smoothness", material.Smoothness);
     }
 
     /// <summary>Every material exists, and there is one for each submesh: Unity draws the rest not at all.</summary>

@@ -14,6 +14,7 @@ namespace KinefabUnity.Editing
         {
             Meshes = OfMeshes(document);
             Materials = Named(document.Materials.Count, i => document.Materials[i].Name);
+            PhysicsMaterials = Named(document.PhysicsMaterials.Count, i => document.PhysicsMaterials[i].Name);
             Clips = Named(document.Animations.Count, i => document.Animations[i].Name);
         }
 
@@ -22,6 +23,9 @@ namespace KinefabUnity.Editing
 
         /// <summary>Their names; of several alike with a number. Users remap materials by these.</summary>
         internal IReadOnlyList<string> Materials { get; }
+
+        /// <summary>Of each physics material.</summary>
+        internal IReadOnlyList<string> PhysicsMaterials { get; }
 
         /// <summary>As materials.</summary>
         internal IReadOnlyList<string> Clips { get; }

@@ -113,6 +113,7 @@ namespace KinefabUnity.Editing
             var made = new List<(string Identifier, Object Object)>();
             Collect(made, "meshes/", identities.Meshes, builder.Looks.Meshes);
             Collect(made, "materials/", identities.Materials, builder.Looks.Materials);
+            Collect(made, "physicsMaterials/", identities.PhysicsMaterials, builder.Looks.PhysicsMaterials);
             Collect(made, "clips/", identities.Clips, builder.AnimationClips);
             made.Add(("source", source));
             made.Add(("root", root));

@@ -46,7 +46,7 @@ namespace KinefabUnity.Editing
                 }
 
                 JointFigures.At(motion.State, line, out Vector3d a, out Vector3d b);
-                Vector3 from = root.TransformPoint(PartPlacement.Vector(a)), to = root.TransformPoint(PartPlacement.Vector(b));
+                Vector3 from = root.TransformPoint(Numbers.Vector(a)), to = root.TransformPoint(Numbers.Vector(b));
                 Handles.color = Colour(line.Colour);
                 if (line.Kind == FigureKind.Joint)
                 {

@@ -30,13 +30,13 @@ namespace KinefabUnity
             switch (collider)
             {
                 case Doc.BoxCollider box:
-                    Set(to.AddComponent<BoxCollider>(), box);
+                    Set(to.AddComponent<BoxCollider>(), box, looks);
                     break;
                 case Doc.SphereCollider sphere:
-                    Set(to.AddComponent<SphereCollider>(), sphere);
+                    Set(to.AddComponent<SphereCollider>(), sphere, looks);
                     break;
                 case Doc.CapsuleCollider capsule:
-                    Set(to.AddComponent<CapsuleCollider>(), capsule);
+                    Set(to.AddComponent<CapsuleCollider>(), capsule, looks);
                     break;
                 case Doc.MeshCollider mesh:
                     Set(to.AddComponent<MeshCollider>(), mesh, looks);
@@ -44,27 +44,27 @@ namespace KinefabUnity
             }
         }
 
-        private static void Set(BoxCollider to, Doc.BoxCollider from)
+        private static void Set(BoxCollider to, Doc.BoxCollider from, Looks looks)
         {
             to.center = Numbers.Vector(from.Center);
             to.size = Numbers.Vector(from.Size);
-            Common(to, from);
+            Common(to, from, looks);
         }
 
-        private static void Set(SphereCollider to, Doc.SphereCollider from)
+        private static void Set(SphereCollider to, Doc.SphereCollider from, Looks looks)
         {
             to.center = Numbers.Vector(from.Center);
             to.radius = (float)from.Radius;
-            Common(to, from);
+            Common(to, from, looks);
         }
 
-        private static void Set(CapsuleCollider to, Doc.CapsuleCollider from)
+        private static void Set(CapsuleCollider to, Doc.CapsuleCollider from, Looks looks)
         {
             to.center = Numbers.Vector(from.Center);
             to.radius = (float)from.Radius;
             to.height = (float)from.Height;
             to.direction = (int)from.Direction;
-            Common(to, from);
+            Common(to, from, looks);
         }
 
         private static void Set(MeshCollider to, Doc.MeshCollider from, Looks looks)
@@ -72,13 +72,17 @@ namespace KinefabUnity
             // Before the mesh, as a body that moves takes no other; and a trigger has to be convex.
             to.convex = from.Convex;
             to.sharedMesh = looks.Mesh(from.Mesh);
-            Common(to, from);
+            Common(to, from, looks);
         }
 
-        private static void Common(Collider to, Doc.Collider from)
+        private static void Common(Collider to, Doc.Collider from, Looks looks)
         {
             to.isTrigger = from.IsTrigger;
             to.enabled = from.Enabled;
+            if (from.Material is int material)
+            {
+                to.sharedMaterial = looks.PhysicsMaterial(material);
+            }
         }
     }
 }

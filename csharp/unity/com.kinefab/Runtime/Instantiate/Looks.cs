@@ -4,10 +4,17 @@ using Kinefab.Validation;
 using UnityEngine;
 using UnityEngine.Rendering;
 using Doc = Kinefab.Document;
+#if UNITY_6000_0_OR_NEWER
+using PhysicsMaterial = UnityEngine.PhysicsMaterial;
+using PhysicsMaterialCombine = UnityEngine.PhysicsMaterialCombine;
+#else
+using PhysicsMaterial = UnityEngine.PhysicMaterial;
+using PhysicsMaterialCombine = UnityEngine.PhysicMaterialCombine;
+#endif
 
 namespace KinefabUnity
 {
-    /// <summary>Meshes and materials of a scene, each made when it is first asked for and shared by all that show it.</summary>
+    /// <summary>Meshes, materials and physics materials of a scene, each made when it is first asked for and shared by all that show it.</summary>
     internal sealed class Looks
     {
         private readonly ValidScene scene;
@@ -16,6 +23,7 @@ namespace KinefabUnity
         private readonly Func<int, Material> replaced;
         private readonly Mesh[] meshes;
         private readonly Material[] materials;
+        private readonly PhysicsMaterial[] physicsMaterials;
         private readonly bool[] touched;
 
         /// <param name="scene">Whose looks they are.</param>
@@ -30,6 +38,7 @@ namespace KinefabUnity
             this.replaced = replaced;
             meshes = new Mesh[scene.Document.Meshes.Count];
             materials = new Material[scene.Document.Materials.Count];
+            physicsMaterials = new PhysicsMaterial[scene.Document.PhysicsMaterials.Count];
             touched = Touched(scene.Document);
         }
 
@@ -41,6 +50,9 @@ namespace KinefabUnity
 
         /// <summary>Those that were asked for; null stands for the others.</summary>
         internal IReadOnlyList<Material> Materials => materials;
+
+        /// <summary>Those that were asked for; null stands for the others.</summary>
+        internal IReadOnlyList<PhysicsMaterial> PhysicsMaterials => physicsMaterials;
 
         internal Mesh Mesh(int index) => meshes[index] != null ? meshes[index] : meshes[index] = Make(scene.Mesh(index), touched[index]);
 
@@ -54,6 +66,24 @@ namespace KinefabUnity
 
             Material own = replaced?.Invoke(index);
             return own != null ? own : materials[index];
+        }
+
+        internal PhysicsMaterial PhysicsMaterial(int index)
+        {
+            if (physicsMaterials[index] == null)
+            {
+                Doc.PhysicsMaterial from = scene.Document.PhysicsMaterials[index];
+                physicsMaterials[index] = new PhysicsMaterial(from.Name)
+                {
+                    dynamicFriction = (float)from.DynamicFriction,
+                    staticFriction = (float)from.StaticFriction,
+                    bounciness = (float)from.Bounciness,
+                    frictionCombine = (PhysicsMaterialCombine)from.FrictionCombine,
+                    bounceCombine = (PhysicsMaterialCombine)from.BounceCombine,
+                };
+            }
+
+            return physicsMaterials[index];
         }
 
         // Unity cooks the shapes of colliders from numbers that it may read.

@@ -2,7 +2,6 @@ using System;
 using System.Collections.Generic;
 using Kinefab.Kinematics;
 using Kinefab.Numerics;
-using Kinefab.Validation;
 using UnityEngine;
 using Doc = Kinefab.Document;
 
@@ -53,8 +52,8 @@ namespace KinefabUnity
                 Joint[] joints = part.GetComponents<Joint>();
                 if (number < joints.Length)
                 {
-                    double zero = from.Components[coordinate.Component] is Doc.ConfigurableJoint joint && coordinate.Coordinate <= Doc.Coordinate.Z
-                        ? Gap(mechanism.Scene, coordinate.GameObject, joint)[coordinate.Coordinate - Doc.Coordinate.X]
+                    double zero = coordinate.Coordinate <= Doc.Coordinate.Z && from.Components[coordinate.Component] is Doc.ConfigurableJoint
+                        ? mechanism.Scene.AnchorGap(coordinate.GameObject, coordinate.Component)[coordinate.Coordinate - Doc.Coordinate.X]
                         : 0;
                     Add(freedom.Coordinate, coordinate.Coordinate, joints[number], zero);
                 }
@@ -310,28 +309,7 @@ namespace KinefabUnity
 
             double a = Math.Cos(x), b = Math.Cos(y), c = Math.Cos(z);
             var goal = new Quaterniond(Math.Sin(x) * b * c, a * Math.Sin(y) * c, a * b * Math.Sin(z), a * b * c);
-            return PartPlacement.Rotation(goal.Normalized());
-        }
-
-        // From the connected anchor to the own one at the exported pose, along the joint's axes.
-        private static Vector3d Gap(ValidScene scene, int gameObject, Doc.ConfigurableJoint joint)
-        {
-            if (joint.AutoConfigureConnectedAnchor)
-            {
-                return Vector3d.Zero;
-            }
-
-            WorldTransform own = scene.WorldTransform(gameObject);
-            Vector3d here = own.Pose.Point(Vector3d.Scale(own.Scale, joint.Anchor)), there = joint.ConnectedAnchor;
-            if (joint.ConnectedBody is int body)
-            {
-                WorldTransform other = scene.WorldTransform(body);
-                there = other.Pose.Point(Vector3d.Scale(other.Scale, joint.ConnectedAnchor));
-            }
-
-            Vector3d x = joint.Axis.Normalized(), z = Vector3d.Cross(x, joint.SecondaryAxis).Normalized(), y = Vector3d.Cross(z, x);
-            Vector3d gap = joint.ConfiguredInWorldSpace ? here - there : own.Pose.Rotation.InverseRotate(here - there);
-            return new Vector3d(Vector3d.Dot(gap, x), Vector3d.Dot(gap, y), Vector3d.Dot(gap, z));
+            return Numbers.Rotation(goal);
         }
 
         private static void Wake(Joint joint)

@@ -135,8 +135,8 @@ namespace KinefabUnity
 
             // A point on a part that hangs below the body is one of the body's.
             Vector3 own = carrier == part ? localPoint : carrier.InverseTransformPoint(part.TransformPoint(localPoint));
-            Vector3d point = Vector3d.Scale(_motion.Mechanism.Scene.WorldTransform(index).Scale, PartPlacement.Vector(own));
-            return Told(_motion.Drag(index, point, PartPlacement.Vector(transform.InverseTransformPoint(worldTarget))), null);
+            Vector3d point = Vector3d.Scale(_motion.Mechanism.Scene.WorldTransform(index).Scale, Numbers.Vector(own));
+            return Told(_motion.Drag(index, point, Numbers.Vector(transform.InverseTransformPoint(worldTarget))), null);
         }
 
         /// <summary>Whether a body of this mechanism that can move carries a part.</summary>

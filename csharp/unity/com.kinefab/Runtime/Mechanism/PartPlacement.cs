@@ -102,8 +102,8 @@ namespace KinefabUnity
 
                 if (IsInPhysics(part))
                 {
-                    part.Body.MovePosition(_root.TransformPoint(Vector(pose.Position)));
-                    part.Body.MoveRotation(turn * Rotation(pose.Rotation));
+                    part.Body.MovePosition(_root.TransformPoint(Numbers.Vector(pose.Position)));
+                    part.Body.MoveRotation(turn * Numbers.Rotation(pose.Rotation));
                 }
                 else
                 {
@@ -204,25 +204,17 @@ namespace KinefabUnity
         /// <param name="closes">Whether the joints are closed then, or left as open as physics has them.</param>
         public void ReadBack(bool closes)
         {
-            Quaterniond turn = Rotation(_root.rotation);
+            Quaterniond turn = Numbers.Rotation(_root.rotation);
             for (int i = 0; i < _parts.Length; i++)
             {
                 Transform at = _parts[i].Transform;
                 _poses[i] = at == null
                     ? _motion.State.Pose(_gameObjects[i])
-                    : new Pose(Vector(_root.InverseTransformPoint(at.position)), (turn.Conjugate() * Rotation(at.rotation)).Normalized());
+                    : new Pose(Numbers.Vector(_root.InverseTransformPoint(at.position)), (turn.Conjugate() * Numbers.Rotation(at.rotation)).Normalized());
             }
 
             _motion.Follow(_gameObjects, _poses, closes);
         }
-
-        public static Vector3d Vector(Vector3 v) => new Vector3d(v.x, v.y, v.z);
-
-        public static Vector3 Vector(Vector3d v) => new Vector3((float)v.X, (float)v.Y, (float)v.Z);
-
-        public static Quaternion Rotation(Quaterniond q) => new Quaternion((float)q.X, (float)q.Y, (float)q.Z, (float)q.W);
-
-        private static Quaterniond Rotation(Quaternion q) => new Quaterniond(q.x, q.y, q.z, q.w).Normalized();
 
         // A body that is switched off is in no physics step.
         private static bool IsInPhysics(in Part part) =>
@@ -257,7 +249,7 @@ namespace KinefabUnity
             Pose pose = state.Pose(part.GameObject);
             if (!ReferenceEquals(part.Transform.parent, part.Parent))
             {
-                part.Transform.SetPositionAndRotation(_root.TransformPoint(Vector(pose.Position)), _root.rotation * Rotation(pose.Rotation));
+                part.Transform.SetPositionAndRotation(_root.TransformPoint(Numbers.Vector(pose.Position)), _root.rotation * Numbers.Rotation(pose.Rotation));
                 return;
             }
 
@@ -268,10 +260,10 @@ namespace KinefabUnity
             }
 
 #if UNITY_2022_2_OR_NEWER
-            part.Transform.SetLocalPositionAndRotation(Vector(pose.Position), Rotation(pose.Rotation));
+            part.Transform.SetLocalPositionAndRotation(Numbers.Vector(pose.Position), Numbers.Rotation(pose.Rotation));
 #else
-            part.Transform.localPosition = Vector(pose.Position);
-            part.Transform.localRotation = Rotation(pose.Rotation);
+            part.Transform.localPosition = Numbers.Vector(pose.Position);
+            part.Transform.localRotation = Numbers.Rotation(pose.Rotation);
 #endif
         }
 
@@ -288,13 +280,13 @@ namespace KinefabUnity
                 angular = sine > 0 ? turn.Vector * (sense * angle / (sine * _lastStep)) : Vector3d.Zero;
             }
 
-            Vector3 speed = _root.TransformVector(Vector(linear));
+            Vector3 speed = _root.TransformVector(Numbers.Vector(linear));
 #if UNITY_6000_0_OR_NEWER
             part.Body.linearVelocity = speed;
 #else
             part.Body.velocity = speed;
 #endif
-            part.Body.angularVelocity = _root.rotation * Vector(angular);
+            part.Body.angularVelocity = _root.rotation * Numbers.Vector(angular);
         }
 
         private struct Part

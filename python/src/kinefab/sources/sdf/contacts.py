@@ -9,7 +9,7 @@ from ...diagnostics import Report
 from ...model import Apart, Scene
 from ..robots.rigid_links import Carrier, Link
 from ..robots.xml_elements import truth
-from .scopes import Entry, Scope
+from .scopes import Entry, Scope, visible
 
 MOST_PAIRS = 2_000
 """Of one model: beyond that engines would spend their time on them."""
@@ -31,18 +31,11 @@ def keep_apart(
     of_model: dict[Scope, list[int]] = {}
     for i, entry in enumerate(entries):
         if links[i].touched and not entry.owner.static and entry.element.tag == "link":
-            of_model.setdefault(_model(entry.owner), []).append(i)
+            of_model.setdefault(visible(entry.owner), []).append(i)
     for model, own in of_model.items():
         whole = truth(model.element.content("self_collide"))
         alone = [i for i in own if not truth(entries[i].element.content("self_collide"), whole)]
         _keep(scene, model, {carriers[i].node: None for i in alone}, known, report)
-
-
-def _model(scope: Scope) -> Scope:
-    """An include that is merged has its links in the model around it."""
-    while scope.merged and scope.above is not None:
-        scope = scope.above
-    return scope
 
 
 def _keep(

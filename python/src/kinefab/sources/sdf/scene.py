@@ -32,7 +32,7 @@ from .contacts import keep_apart
 from .joints import SdfJoint, read_joint
 from .links import Links
 from .materials import Materials
-from .scopes import Entry, Scope, entry_world_pose, link_of, world_pose
+from .scopes import Entry, Scope, entry_world_pose, link_of, visible, world_pose
 
 SQUARE = 1e-6
 """Cosine up to which two axes are at right angles."""
@@ -48,7 +48,7 @@ def fill_scene(scene: Scene, root: Scope, report: Report) -> None:
     assembly = _add_assemblies(scene, root)
     links = Links(Materials(scene.surfaces), report)
     entries = root.all_entries("link")
-    made = [links.link(entry, assembly.get(_visible(entry.owner))) for entry in entries]
+    made = [links.link(entry, assembly.get(visible(entry.owner))) for entry in entries]
     number = {entry: i for i, entry in enumerate(entries)}
     joints = [j for e in root.all_entries("joint") if (j := read_joint(e, report)) is not None]
     report.raise_for_errors()
@@ -112,13 +112,6 @@ def _settle_ends(joint: SdfJoint, made: list[Link], number: dict[Entry, int], re
         if made[number[end]].kinematic:
             made[number[end]].kinematic = False
             report.dropped(f"kinematic of link {end.name}", "ELEMENT_DROPPED", end.element.where)
-
-
-def _visible(scope: Scope) -> Scope:
-    """The scope whose node a link hangs from."""
-    while scope.merged and scope.above is not None:
-        scope = scope.above
-    return scope
 
 
 def _square(joint: SdfJoint) -> bool:

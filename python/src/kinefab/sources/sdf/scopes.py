@@ -256,3 +256,10 @@ def canonical_link(scope: Scope) -> Entry | None:
         return own
     nested = (e.inner for e in scope.entries.values() if e.inner is not None)
     return next((link for inner in nested if (link := canonical_link(inner)) is not None), None)
+
+
+def visible(scope: Scope) -> Scope:
+    """The scope whose node a link hangs from: an include that is merged has its links in the model around it."""
+    while scope.merged and scope.above is not None:
+        scope = scope.above
+    return scope

@@ -18,12 +18,12 @@ from ...unity.scene import (
     UnityScene,
 )
 from ..content import Content
+from ..tangents import normal_mapped, with_tangents
 from .assets.clips import CLIP_ID, clip_asset
 from .assets.identities import mesh_identities, named_identities
 from .assets.materials import MATERIAL_ID, material_asset
 from .assets.meshes import MESH_ID, mesh_asset
 from .assets.physics_materials import PHYSICS_MATERIAL_ENDING, PHYSICS_MATERIAL_ID, physics_material_asset
-from .assets.tangents import with_tangents
 from .assets.textures import TextureFile, Textures, reference, shown, twins_of
 from .files import AssetFile
 from .last import GUID, NOTHING, LastExport
@@ -176,7 +176,7 @@ class _Export:
         used = sorted(identities)
         names = [mesh_name(meshes, i) for i in used]
 
-        bumpy = _normal_mapped(self.scene)
+        bumpy = normal_mapped(self.scene)
 
         def made(k: int, title: str) -> Iterator[bytes]:
             mesh = meshes[used[k]]
@@ -261,17 +261,6 @@ def _prefab(hierarchy: Hierarchy) -> Iterator[bytes]:
     while together := list(islice(documents, TOGETHER)):
         yield "".join(together).encode("ascii")
 
-
-def _normal_mapped(scene: UnityScene) -> set[int]:
-    """Meshes that show a normal map."""
-    found: set[int] = set()
-    for entry in scene.gameObjects:
-        shown_materials = [
-            scene.materials[m] for c in entry.components if isinstance(c, MeshRenderer) for m in c.materials
-        ]
-        if any(material.normalTexture is not None for material in shown_materials):
-            found |= {c.mesh for c in entry.components if isinstance(c, MeshFilter)}
-    return found
 
 
 def _moved_by_forces(scene: UnityScene) -> bool:

@@ -9,7 +9,7 @@ from typing import Any
 
 import numpy as np
 
-from ...model import MOTOR_DAMPING, RX, Drive, Freedom, Motion, SphericalDrive
+from ...model import MOTOR_DAMPING, RX, Drive, Freedom, Motion, Passive, SphericalDrive
 from ...spatial import matrix_from_quaternion, rotation_exp, rotation_log
 from .. import frames
 from ..scene.joints.configurable_joint import TWIST_RANGE
@@ -21,8 +21,24 @@ _SENSES = frames.Senses.of(b_in_a=True)
 _LINEAR = ("xDrive", "yDrive", "zDrive")
 
 
+def _with_stated(component: Entry, freedom: Freedom, unit: float) -> Freedom:
+    """With what the source states beside any drive.  unit: of the coordinate in the scene file, in the model's."""
+    if freedom.motion is Motion.LOCKED or not any(
+        name in component for name in ("effort", "speed", "friction", "armature")
+    ):
+        return freedom
+    passive = Passive(
+        friction=float(component.get("friction", 0.0)),
+        armature=float(component.get("armature", 0.0)),
+        effort=float(component.get("effort", math.inf)),
+        speed=unit * float(component.get("speed", math.inf)),
+    )
+    return replace(freedom, passive=passive)
+
+
 def hinge_turn(component: Entry, turn: Freedom) -> Freedom:
     """A hinge's one freedom with its bounce and what drives it."""
+    turn = _with_stated(component, turn, math.radians(1.0))
     if turn.motion is Motion.LIMITED:
         turn = replace(turn, restitution=float(component.get("limits", {}).get("bounciness", 0.0)))
     if component.get("useMotor", False):
@@ -61,7 +77,8 @@ def driven(component: Entry, freedoms: tuple[Freedom, ...]) -> tuple[Freedom, ..
             found[RX + i] = _with_drive(
                 found[RX + i], component.get(name, {}), sign * float(turn[i]), -sign * spins[i]
             )
-    return tuple(found)
+    units = [1.0] * RX + [math.radians(1.0)] * RX
+    return tuple(_with_stated(component, f, unit) for f, unit in zip(found, units))
 
 
 def slerp_of(component: Entry) -> SphericalDrive | None:

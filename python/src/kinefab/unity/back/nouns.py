@@ -9,6 +9,7 @@ from enum import Enum
 from functools import cache
 from typing import Any, TypeVar, Union, cast, get_args, get_origin, get_type_hints
 
+from ...diagnostics import Report
 from ..definitions import NONE, Noun, definition_of, definitions, properties
 from ..scene import (
     ArticulationBody,
@@ -25,6 +26,7 @@ from ..scene import (
 )
 
 Entry = Mapping[str, Any]
+TARGET = "what reads a .kinefab"
 N = TypeVar("N", bound=Noun)
 
 COMPONENTS: Mapping[str, type[Noun]] = {
@@ -121,3 +123,15 @@ def _value(hint: Any, value: Any) -> Any:
 
 def _noun_in(hint: Any) -> type[Noun] | None:
     return hint if isinstance(hint, type) and is_dataclass(hint) else None
+
+
+def told(kind: Any, entry: Entry, name: str, report: Report) -> Any:
+    """The noun; the report gets what it has no field for."""
+    tell(kind, entry, name, report)
+    return noun(kind, entry)
+
+
+def tell(kind: type[Noun], entry: Entry, name: str, report: Report) -> None:
+    """The report gets what an entry says that its noun has no field for."""
+    for field in unheld(kind, entry):
+        report.field_dropped(name, field, TARGET)

@@ -81,11 +81,19 @@ def _demand_references(scene: Mapping[str, Any], path: Path) -> None:
             place = f"/gameObjects/{i}/components/{j}"
             demand(component.get("connectedBody"), "gameObjects", f"{place}/connectedBody")
             demand(component.get("mesh"), "meshes", f"{place}/mesh")
+            demand(component.get("material"), "physicsMaterials", f"{place}/material")
             for k, material in enumerate(component.get("materials", [])):
                 demand(material, "materials", f"{place}/materials/{k}")
     for i, mesh in enumerate(scene.get("meshes", [])):
-        for name in ("positions", "normals", "uv", "indices"):
-            demand(mesh.get(name, {}).get("buffer"), "buffers", f"/meshes/{i}/{name}/buffer")
+        for name, value in mesh.items():
+            if isinstance(value, dict) and "buffer" in value:
+                demand(value["buffer"], "buffers", f"/meshes/{i}/{name}/buffer")
+    for i, image in enumerate(scene.get("images", [])):
+        demand(image.get("data", {}).get("buffer"), "buffers", f"/images/{i}/data/buffer")
+    for i, material in enumerate(scene.get("materials", [])):
+        for name, value in material.items():
+            if isinstance(value, dict) and "image" in value:
+                demand(value["image"], "images", f"/materials/{i}/{name}/image")
     found.raise_for_errors()
 
 

@@ -6,7 +6,8 @@ the model's own terms gets the nodes.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
+from collections import Counter
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import Any
@@ -18,6 +19,7 @@ from ...model import (
     AnimationClip,
     Apart,
     Body,
+    Coupling,
     Dynamics,
     Joint,
     MassProperties,
@@ -36,6 +38,7 @@ from ...options import Closures, ExportOptions, Ground
 from ...spatial import Pose, matrix_from_quaternion
 from .. import frames
 from ..assets.clips import WRAP
+from ..joints.passive import with_passive_drives
 from ..mapping import GROUND_ID
 from ..scene import ArticulationBody, Collider, GameObject, Material, Mesh, MeshFilter, MeshRenderer, Rigidbody, UnityScene
 from ..scene.joints.configurable_joint import APART
@@ -55,7 +58,7 @@ class WrittenScene(Scene):
 
     written: UnityScene = field(default_factory=UnityScene)
 
-    def as_written(self, links: bool, options: ExportOptions) -> UnityScene | None:
+    def as_written(self, links: bool, options: ExportOptions, report: Report) -> UnityScene | None:
         """What is in the file, where nothing is asked for that it was not made with; None where it is to be made anew.
 
         links: whether bodies are to be links.
@@ -67,7 +70,11 @@ class WrittenScene(Scene):
             or options.limits
             or options.reading.get("mates")
         )
-        return None if anew or (links and not has_links) else self.written
+        if anew or (links and not has_links):
+            return None
+        for joint in () if has_links else self.joints:  # no joint of Unity's has a field for it, as where they are made anew
+            with_passive_drives(joint, report)
+        return self.written
 
 
 def read(path: Path, report: Report, request: object) -> WrittenScene:
@@ -123,6 +130,7 @@ class _Nodes:
         joints = self._joints()
         ids = {joint.id for joint in joints}
         couplings = [c for c in self.back.scene.couplings if c.joints <= ids]
+        joints, couplings = self._named(joints, couplings)
         extras = {key: value for key, value in written.extras.items() if key != "ignoreCollision"}
         source, physics = written.source, written.physics
         return WrittenScene(
@@ -247,7 +255,8 @@ class _Nodes:
 
     def _joints(self) -> list[Joint]:
         """Between the nodes: the restored ones are between Rigidbodies, and the world is one of them."""
-        carrier = [None if i == 0 else self._index(node.id) for i, node in enumerate(self.back.scene.nodes)]
+        index_of = {entry.id: index for index, entry in enumerate(self.objects)}
+        carrier = [None if i == 0 else index_of[node.id] for i, node in enumerate(self.back.scene.nodes)]
         found: list[Joint] = []
         for (index, k), joint in self.back.joints.items():
             if APART in getattr(self.objects[index].components[k], "extras", {}):
@@ -258,8 +267,25 @@ class _Nodes:
                 found.append(replace(joint, a=a, b=b, frame_a=frame_a, frame_b=frame_b))
         return found
 
-    def _index(self, id: str) -> int:
-        return next(i for i, entry in enumerate(self.objects) if entry.id == id)
+    def _named(
+        self, joints: Sequence[Joint], couplings: Sequence[Coupling]
+    ) -> tuple[list[Joint], list[Coupling]]:
+        """By the source's own ids, where the file tells them: by those other targets and the report name them."""
+        place = {joint.id: at for at, joint in self.back.joints.items()}
+        told = {
+            joint.id: str(getattr(self.objects[place[joint.id][0]].components[place[joint.id][1]], "id", ""))
+            for joint in joints
+        }
+        counts = Counter(told.values())
+        name = {own: id if id and counts[id] == 1 and id not in told else own for own, id in told.items()}
+        return [replace(joint, id=name[joint.id]) for joint in joints], [
+            replace(
+                coupling,
+                joint=name[coupling.joint],
+                terms=tuple(replace(term, joint=name[term.joint]) for term in coupling.terms),
+            )
+            for coupling in couplings
+        ]
 
     def _side(self, index: int | None, frame: Pose) -> tuple[int | None, Pose]:
         if index is None:
@@ -283,10 +309,9 @@ class _Nodes:
         for pair in listed if isinstance(listed, list) else ():
             if isinstance(pair, list) and len(pair) == 2 and all(name in node for name in pair):
                 pairs.append((pair[0], pair[1]))
+        known = {frozenset(pair) for pair in pairs}
         pairs += [
-            (one, other)
-            for one, other in (tuple(sorted(pair)) for pair in reasons)
-            if frozenset((one, other)) not in {frozenset(pair) for pair in pairs}
+            (one, other) for one, other in (tuple(sorted(pair)) for pair in reasons if pair not in known)
         ]
         return [
             Apart(node[a], node[b], reasons.get(frozenset((a, b)), "ignoreCollision"), stated=False)
@@ -336,12 +361,17 @@ def _dynamics(body: Rigidbody | ArticulationBody) -> Dynamics:
 
 
 def _mesh(mesh: Mesh) -> ModelMesh:
+    tangents = mesh.tangents
+    if tangents is not None:
+        tangents = np.column_stack([frames.direction(tangents[:, :3]), frames.handedness(tangents[:, 3])])
     return ModelMesh(
         mesh.name,
         frames.point(mesh.vertices),
         frames.winding(mesh.triangles).astype(np.int64),
         None if mesh.normals is None else frames.direction(mesh.normals),
         tuple(np.asarray(uv, dtype=np.float64) for uv in mesh.uvs),
+        tangents,
+        None if mesh.colors is None else np.asarray(mesh.colors, dtype=np.float64),
         face_counts=mesh.submeshes,
     )
 

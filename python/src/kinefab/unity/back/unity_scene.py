@@ -9,8 +9,7 @@ from typing import Any, cast, overload
 import numpy as np
 
 from ...diagnostics import Report
-from ...model import AlphaMode
-from ..definitions import Noun
+from ..definitions import UV_SETS, Noun
 from ..scene import (
     AnimationClip,
     Component,
@@ -19,19 +18,19 @@ from ..scene import (
     CouplingTerm,
     GameObject,
     JointCoordinate,
-    Material,
     Mesh,
     Mobility,
     Physics,
+    PhysicsMaterial,
     Source,
     Transform,
     UnityScene,
 )
 from .demanded import demand_sound
-from .nouns import COMPONENTS, component, noun, unheld
+from .looks import material
+from .nouns import COMPONENTS, component, noun, tell, told
 
 Entry = Mapping[str, Any]
-TARGET = "what reads a .kinefab"
 _WIDTHS = {"uint16": "<u2", "uint32": "<u4"}
 
 
@@ -60,14 +59,23 @@ def _mesh(entry: Entry, buffers: Sequence[bytes]) -> Mesh:
     indices = _values(entry["indices"], buffers, _WIDTHS[entry["indexFormat"]], 3 * sum(submeshes))
     if len(indices) and int(indices.max()) >= count:
         raise ValueError("an index past the last vertex")
-    normals, uv = entry.get("normals"), entry.get("uv")
+
+    def floats(name: str, width: int) -> Any:
+        place = entry.get(name)
+        return None if place is None else _values(place, buffers, "<f4", width * count).reshape(-1, width)
+
+    uvs = [floats(name, 2) for name in UV_SETS]
+    if any(uvs[i] is None and uvs[i + 1] is not None for i in range(len(uvs) - 1)):
+        raise ValueError("a set of texture coordinates behind one that is not there")
     return Mesh(
         str(entry["name"]),
-        _values(entry["positions"], buffers, "<f4", 3 * count).reshape(-1, 3),
+        floats("positions", 3),
         indices.reshape(-1, 3),
-        None if normals is None else _values(normals, buffers, "<f4", 3 * count).reshape(-1, 3),
-        () if uv is None else (_values(uv, buffers, "<f4", 2 * count).reshape(-1, 2),),
-        submeshes=submeshes,
+        floats("normals", 3),
+        tuple(uv for uv in uvs if uv is not None),
+        floats("tangents", 4),
+        floats("colors", 4),
+        submeshes,
     )
 
 
@@ -86,11 +94,17 @@ def unity_scene(document: Entry, buffers: Sequence[bytes], report: Report) -> Un
     objects = [_game_object(entry, report) for entry in document["gameObjects"]]
     analysis = document.get("analysis")
     found = UnityScene(
-        source=_told(Source, document.get("source", {}), "source", report),
-        physics=_told(Physics, document.get("physics", {}), "physics", report),
+        source=told(Source, document.get("source", {}), "source", report),
+        physics=told(Physics, document.get("physics", {}), "physics", report),
         gameObjects=tuple(objects),
         meshes=WrittenMeshes(document.get("meshes", ()), buffers),
-        materials=tuple(_material(entry, report) for entry in document.get("materials", ())),
+        materials=tuple(
+            material(entry, document.get("images", ()), buffers, report) for entry in document.get("materials", ())
+        ),
+        physicsMaterials=tuple(
+            told(PhysicsMaterial, entry, f"physics material {entry['name']}", report)
+            for entry in document.get("physicsMaterials", ())
+        ),
         couplings=tuple(_coupling(i, entry) for i, entry in enumerate(document.get("couplings", ()))),
         animations=tuple(noun(AnimationClip, entry) for entry in document.get("animations", ())),
         constraints=tuple(noun(Constraint, entry) for entry in document.get("constraints", ())),
@@ -101,35 +115,17 @@ def unity_scene(document: Entry, buffers: Sequence[bytes], report: Report) -> Un
     return found
 
 
-def _told(kind: Any, entry: Entry, name: str, report: Report) -> Any:
-    _tell(kind, entry, name, report)
-    return noun(kind, entry)
-
-
-def _tell(kind: type[Noun], entry: Entry, name: str, report: Report) -> None:
-    for field in unheld(kind, entry):
-        report.field_dropped(name, field, TARGET)
-
-
 def _game_object(entry: Entry, report: Report) -> GameObject:
     own = str(entry["id"])
     components: list[Component] = []
     for each in entry.get("components", ()):
-        _tell(COMPONENTS[each["type"]], each, f"{each['type']} of {own}", report)
+        tell(COMPONENTS[each["type"]], each, f"{each['type']} of {own}", report)
         components.append(cast(Component, component(each)))
     bare = {key: value for key, value in entry.items() if key not in ("components", "transform")}
-    _tell(GameObject, bare, f"object {own}", report)
-    _tell(Transform, entry.get("transform", {}), f"place of {own}", report)
+    tell(GameObject, bare, f"object {own}", report)
+    tell(Transform, entry.get("transform", {}), f"place of {own}", report)
     transform = noun(Transform, entry.get("transform", {}))
     return replace(noun(GameObject, bare), transform=transform, components=tuple(components))
-
-
-def _material(entry: Entry, report: Report) -> Material:
-    """One of a file that states no mode of its alpha is seen through where it is not whole, as it was when it was written."""
-    found: Material = _told(Material, entry, f"material {entry['name']}", report)
-    if "alphaMode" in entry or found.color[3] >= 1.0:
-        return found
-    return noun(Material, {**entry, "alphaMode": AlphaMode.BLEND.value})
 
 
 def _coupling(index: int, entry: Entry) -> Coupling:

@@ -27,6 +27,19 @@ BY_CONTACT = frozenset(
 def with_mated_apart(scene: Scene, groups: RigidGroups) -> Scene:
     """The scene in which bodies that a constraint puts into each other do not collide, also where no joint is made between them:
     teeth that mesh, and bearings whose joint hangs the body on another one."""
+    known = {frozenset((pair.a, pair.b)) for pair in scene.apart}
+    known |= {frozenset((joint.a, joint.b)) for joint in scene.joints if not joint.collide}
+    mated: dict[frozenset[int | None], Apart] = {}
+    for constraint in scene.constraints:
+        if constraint.kind in BY_CONTACT or constraint.suppressed or len(constraint.features) < 2:
+            continue
+        a, b = (feature.node for feature in constraint.features[:2])
+        pair = frozenset((a, b))
+        if a is not None and b is not None and pair not in known and not groups.together(a, b):
+            reason = f"{constraint.kind.value} {constraint.name or constraint.id}"
+            mated.setdefault(pair, Apart(a, b, reason, constraint.where, stated=False))
+    if not mated:
+        return scene
     carrier_of = place_rigidbodies(scene, groups).carrier_of
 
     def body(node: int | None) -> int | None:
@@ -35,17 +48,6 @@ def with_mated_apart(scene: Scene, groups: RigidGroups) -> Scene:
             return None if node is None else carrier_of[node]
         return groups.standing[node] if groups.standing else node
 
-    known = {frozenset((pair.a, pair.b)) for pair in scene.apart}
-    joined = {frozenset((body(j.a), body(j.b))) for j in scene.joints if not j.collide}
-    found: list[Apart] = []
-    for constraint in scene.constraints:
-        if constraint.kind in BY_CONTACT or constraint.suppressed or len(constraint.features) < 2:
-            continue
-        a, b = (feature.node for feature in constraint.features[:2])
-        if a is None or b is None or groups.together(a, b) or frozenset((a, b)) in known:
-            continue
-        known.add(frozenset((a, b)))
-        if frozenset((body(a), body(b))) not in joined:
-            reason = f"{constraint.kind.value} {constraint.name or constraint.id}"
-            found.append(Apart(a, b, reason, constraint.where, stated=False))
+    joined = {frozenset((body(joint.a), body(joint.b))) for joint in scene.joints if not joint.collide}
+    found = [pair for pair in mated.values() if frozenset((body(pair.a), body(pair.b))) not in joined]
     return replace(scene, apart=[*scene.apart, *found]) if found else scene

@@ -7,7 +7,7 @@ from collections.abc import Mapping
 from dataclasses import replace
 
 from ...diagnostics import Report
-from ...model import Drive, Freedom, Joint, Motion, Passive
+from ...model import RX, Drive, Freedom, Joint, Motion, Passive
 from .limits import feature_of
 
 MOST = 1e36
@@ -77,6 +77,31 @@ def unkept_bounds(freedom: Freedom) -> dict[str, float]:
     effort = math.inf if drive is not None and drive.max_force <= passive.effort else passive.effort
     most = {"effort": effort, "speed": passive.speed}
     return {what: value for what, value in most.items() if math.isfinite(value)}
+
+
+def stated_of(joint: Joint) -> dict[str, float]:
+    """Effort, speed, friction and armature as fields of Unity's joint, of those that the source states; none where coordinates
+    that move differ in them, or one turns and another slides."""
+    moving = [(i, f.passive or Passive()) for i, f in enumerate(joint.freedoms) if f.motion is not Motion.LOCKED]
+    stated = {(p.effort, p.speed, p.friction, p.armature) for _, p in moving}
+    if len(stated) != 1 or len({i < RX for i, _ in moving}) != 1:
+        return {}
+    ((effort, speed, friction, armature),) = stated
+    speed = math.degrees(speed) if moving[0][0] >= RX else speed
+    found = {"effort": effort, "speed": speed, "friction": friction, "armature": armature}
+    return {name: value for name, value in found.items() if 0.0 < value <= MOST}
+
+
+def withdraw_stated(joint: Joint, report: Report) -> None:
+    """Take back what ``with_passive_drives`` told of what ``stated_of`` holds."""
+    fields = stated_of(joint)
+    for index in joint.unlocked if fields else ():
+        for what, code in (("friction", "JOINT_FRICTION_DROPPED"), ("armature", "JOINT_ARMATURE_DROPPED")):
+            if what in fields:
+                report.withdraw(feature_of(joint, what, index), code)
+        bounds = unkept_bounds(joint.freedoms[index])
+        if bounds and bounds.keys() <= fields.keys():
+            withdraw_bounds(joint, index, bounds, report)
 
 
 def tell_bounds(joint: Joint, index: int, bounds: Mapping[str, float], report: Report) -> None:

@@ -22,6 +22,23 @@ internal static class JointRules
         NumberRules.Finite(at, "anchor", joint.Anchor);
         NumberRules.Finite(at, "axis", joint.Axis);
         NumberRules.Finite(at, "connectedAnchor", joint.ConnectedAnchor);
+        NumberRules.PositiveOrUnlimited(at, "effort", joint.Effort);
+        NumberRules.PositiveOrUnlimited(at, "speed", joint.Speed);
+        NumberRules.NotNegative(at, "friction", joint.Friction);
+        NumberRules.NotNegative(at, "armature", joint.Armature);
+    }
+
+    /// <summary>What a source states of a joint and no solver here, nor Unity's, has a place for.</summary>
+    internal static void Stated(AnchoredJoint joint, in Place at)
+    {
+        if (joint.Effort < double.PositiveInfinity)
+            at.Report("effort", DiagnosticCodes.JointStatedUnfollowed, ("field", "effort"));
+        if (joint.Speed < double.PositiveInfinity)
+            at.Report("speed", DiagnosticCodes.JointStatedUnfollowed, ("field", "speed"));
+        if (joint.Friction > 0)
+            at.Report("friction", DiagnosticCodes.JointStatedUnfollowed, ("field", "friction"));
+        if (joint.Armature > 0)
+            at.Report("armature", DiagnosticCodes.JointStatedUnfollowed, ("field", "armature"));
     }
 
     /// <summary>Unity adds a Rigidbody of its own to a joint without one, with mass 1 and guessed inertia.</summary>

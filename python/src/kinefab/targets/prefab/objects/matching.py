@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import math
 import re
-from collections import defaultdict
+from collections import Counter, defaultdict
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
 
@@ -225,11 +225,12 @@ class _Matching:
             if (difference := _difference(mine[k], theirs[n]))[0] <= CHANGED_LINES.get(now[k].kind, 1)
         ]
         told: set[int] = set()
+        chances = Counter(pair[3] for pair in pairs)
         for _, _, _, k, n in sorted(pairs):
             if (i, k) not in self.found.components and n not in told:
                 told.add(n)
                 self.found.components[i, k] = then[n]
-                if sum(pair[3] == k for pair in pairs) > 1:
+                if chances[k] > 1:
                     self.found.unsure.append(self.objects[i].id)
 
 
@@ -273,13 +274,15 @@ def assets_of_before(
     pairs: a component's new text, and its old document.  now: the guids of all this export's assets.
     """
     found: dict[str, str] = {}
+    taken = set(now)
     for text, old in pairs:
         new_guids, old_guids = Document(0, "", text).guids, old.guids
         if len(new_guids) != len(old_guids):
             continue
         for a, b in zip(new_guids, old_guids):
-            if a == b or a in found or b in now or b in found.values():
+            if a == b or a in found or b in taken:
                 continue
             if a not in last.own and b in last.own:
                 found[a] = b
+                taken.add(b)
     return found

@@ -41,9 +41,15 @@ class AnchoredJoint(Joint):
 
     anchor, axis: in the own object's frame, metres, unit vector.  connectedAnchor: in the connected body's frame, in the
     world where there is none.
+    effort, speed, friction, armature: what the source states of each coordinate that moves, newtons or newton metres, metres or
+    degrees a second, kilograms or kg m^2; no joint of Unity's has them.
     """
 
     anchor: Vector3 = ZERO
     axis: Vector3 = (1.0, 0.0, 0.0)
     autoConfigureConnectedAnchor: bool = True
     connectedAnchor: Vector3 = ZERO
+    effort: float = math.inf
+    speed: float = math.inf
+    friction: float = 0.0
+    armature: float = 0.0

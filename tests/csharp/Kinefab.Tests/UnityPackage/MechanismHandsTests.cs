@@ -1,0 +1,164 @@
+using System;
+using System.Collections.Generic;
+using System.IO;
+using System.Linq;
+using Kinefab.Kinematics;
+using Kinefab.Numerics;
+using KinefabUnity;
+using KinefabUnity.Editing;
+using NUnit.Framework;
+using UnityEditor;
+using Unity = UnityEngine;
+
+namespace Kinefab.Tests.UnityPackage;
+
+/// <summary>Who moves the parts: the solver, drives or physics, the mouse, the inspector.</summary>
+[NonParallelizable]
+public sealed class MechanismHandsTests
+{
+    private static readonly string Samples = Path.Combine(PlayedMechanism.Fixtures, "..", "csharp", "unity", "com.kinefab", "Samples~");
+
+    [Test]
+    public void Mover_Exact_HoldsTheBodiesAndHandsThemOverAsFastAsTheyGo()
+    {
+        using var played = new PlayedMechanism(PlayedMechanism.Lever, KinefabPhysics.AsExported);
+        Unity.Rigidbody crank = played.Part("Lever/Crank:1").GetComponent<Unity.Rigidbody>();
+        Assert.That(crank.isKinematic, Is.True);
+        for (int i = 1; i <= 10; i++)
+        {
+            played.Component.Drive("Shaft", 2 * i);
+            played.Frame();
+        }
+
+        played.Component.Mover = KinefabMover.Physics;
+        Assert.That(crank.isKinematic, Is.False);
+
+        // 2 degrees in a step of 0.02 s.
+        Assert.That(crank.angularVelocity.magnitude, Is.EqualTo(100 * Math.PI / 180).Within(1e-3));
+
+        // Physics turns the crank further: the values follow, and the solver takes it from there.
+        Unity.Transform at = crank.transform;
+        at.localRotation = Unity.Quaternion.AngleAxis(-3, crank.GetComponent<Unity.HingeJoint>().axis) * at.localRotation;
+        played.Frame();
+        double followed = played.Component.Value("Shaft");
+        Assert.That(Math.Abs(followed - 20), Is.EqualTo(3).Within(1e-3));
+        played.Component.Mover = KinefabMover.Exact;
+        Assert.That(crank.isKinematic, Is.True);
+        played.Frame();
+        Assert.That(played.Off(played.Component.Motion.State), Is.LessThan(2e-5));
+    }
+
+    [Test]
+    public void Mover_JointDrives_AimsTheJointsAndGivesThemBack()
+    {
+        using var played = new PlayedMechanism(PlayedMechanism.Lever, KinefabPhysics.AsExported);
+        Unity.HingeJoint hinge = played.Part("Lever/Crank:1").GetComponent<Unity.HingeJoint>();
+        (bool UseSpring, bool UseMotor, Unity.JointSpring Spring) before = (hinge.useSpring, hinge.useMotor, hinge.spring);
+        played.Component.Mover = KinefabMover.JointDrives;
+        played.Component.Drive("Shaft", 25);
+        int shaft = played.Component.Freedoms[0].Coordinate;
+        Assert.That((hinge.useSpring, (double)hinge.spring.targetPosition), Is.EqualTo((true, played.Component.Motion.State.Coordinate(shaft))).Using<(bool, double)>((a, b) => a.Item1 == b.Item1 && Math.Abs(a.Item2 - b.Item2) < 1e-4));
+        Assert.That(played.Part("Lever/Crank:1").GetComponent<Unity.Rigidbody>().isKinematic, Is.False);
+        played.Component.enabled = false;
+        Assert.That((hinge.useSpring, hinge.useMotor, hinge.spring), Is.EqualTo(before));
+    }
+
+    [Test]
+    public void Articulation_Exact_SetsTheLinksJointPositions()
+    {
+        using var played = new PlayedMechanism(Path.Combine(Samples, "Arm", "Arm.kinefab"), KinefabPhysics.AsExported);
+        Assert.That(played.Component.Freedoms, Has.Count.EqualTo(6));
+        played.Component.Set(new double[] { 10, 20, -30, 40, 50, -60 });
+        played.Frame();
+        Unity.ArticulationBody[] links = [.. played.Root.GetComponentsInChildren<Unity.ArticulationBody>().Where(link => link.jointPosition.dofCount == 1)];
+        Assert.That(links.Select(link => Math.Round(Math.Abs(link.jointPosition[0]) * 180 / Math.PI, 3)), Is.EqualTo(new[] { 10.0, 20, 30, 40, 50, 60 }));
+        Assert.That(links.Any(link => link.useGravity), Is.False);
+        played.Component.Mover = KinefabMover.JointDrives;
+        Assert.That(links.Select(link => Math.Round(Math.Abs(link.xDrive.target), 3)), Is.EqualTo(new[] { 10.0, 20, 30, 40, 50, 60 }));
+        Assert.That(links.All(link => link.useGravity), Is.True);
+    }
+
+    [Test]
+    public void Gripper_JawsFollowTheSpindle()
+    {
+        using var played = new PlayedMechanism(Path.Combine(Samples, "Gripper", "Gripper.kinefab"));
+        played.Component.Drive("Spindle", 180);
+        Assert.That(Math.Abs(played.Component.Value("Left jaw")), Is.EqualTo(0.01).Within(1e-9));
+        Assert.That(played.Component.Value("Right jaw"), Is.EqualTo(-played.Component.Value("Left jaw")).Within(1e-9));
+    }
+
+    // The camera looks along +Z at the middle of a part; the mouse goes down on it, sideways, and up.
+    [Test]
+    public void Dragger_PullsWhatTheMouseIsOn()
+    {
+        using var played = new PlayedMechanism(Path.Combine(Samples, "FourBar", "FourBar.kinefab"), KinefabPhysics.None);
+        var eye = new Unity.GameObject("Eye");
+        Unity.Camera camera = eye.AddComponent<Unity.Camera>();
+        Unity.Bounds crank = played.Component.MovingParts().Single(part => part.name == "Crank").GetComponentsInChildren<Unity.MeshRenderer>()[0].bounds;
+        eye.transform.position = crank.center - new Unity.Vector3(0, 0, 1);
+        KinefabDragger dragger = eye.AddComponent<KinefabDragger>();
+        dragger.view = camera;
+        double before = played.Component.Value("Motor");
+
+        Unity.Input.mousePosition = new Unity.Vector3(0, 0, 0);
+        Unity.Input.IsDown = true;
+        Unity.Player.Frame();
+        Assert.That(dragger.Part?.name, Is.EqualTo("Crank"));
+        Unity.Input.WasDown = true;
+        Unity.Input.mousePosition = new Unity.Vector3(0.02f, 0, 0);
+        Unity.Player.Frame();
+        double pulled = played.Component.Value("Motor");
+        Assert.That(Math.Abs(pulled - before), Is.GreaterThan(5));
+        Unity.Input.IsDown = Unity.Input.WasDown = false;
+        Unity.Player.Frame();
+        Assert.That(dragger.Part == null, Is.True);
+        Assert.That(played.Component.Value("Motor"), Is.EqualTo(pulled));
+        Unity.Object.DestroyImmediate(eye);
+    }
+
+    [Test]
+    public void Inspector_HasASliderForEachFreedomAndRecordsUndo()
+    {
+        using var played = new PlayedMechanism(PlayedMechanism.Lever, plays: false);
+        var inspector = Unity.ScriptableObject.CreateInstance<KinefabMechanismEditor>();
+        inspector.target = played.Component;
+        EditorGUILayout.Shown.Clear();
+        Undo.Recorded.Clear();
+        EditorGUILayout.Set = (label, value) => label.StartsWith("Shaft", StringComparison.Ordinal) ? 40f : value;
+        try
+        {
+            inspector.OnInspectorGUI();
+        }
+        finally
+        {
+            EditorGUILayout.Set = (label, value) => value;
+        }
+
+        Assert.That(EditorGUILayout.Shown, Has.Some.EqualTo("Shaft [°]: 0 in -180 to 180"));
+        Assert.That(played.Component.Value("Shaft"), Is.EqualTo(40).Within(1e-9));
+        Assert.That(played.Off(played.Component.Motion.State), Is.LessThan(2e-5), "placed in the editor, too");
+        (string name, Unity.Object[] objects) = Undo.Recorded.Single();
+        Assert.That(name, Is.EqualTo("Move Shaft"));
+        Assert.That(objects, Has.Member(played.Component).And.Member(played.Part("Lever/Crank:1")).And.No.Member(played.Root.transform));
+    }
+
+    [TestCaseSource(typeof(PlayedMechanism), nameof(PlayedMechanism.Scenes))]
+    public void Figures_OfEveryFixture_AreFiniteAndGoAlong(string path)
+    {
+        using var played = new PlayedMechanism(PlayedMechanism.Full(path), KinefabPhysics.None);
+        if (played.Component == null || played.Component.Freedoms.Count == 0)
+            return;
+        var figures = new JointFigures(played.Component.Motion.Mechanism);
+        Assert.That(figures.Lines, Is.Not.Empty);
+        MechanismState state = played.Component.Motion.State;
+        foreach (FigureLine line in figures.Lines)
+        {
+            JointFigures.At(state, line, out Vector3d a, out Vector3d b);
+            Assert.That(a.IsFinite && b.IsFinite, Is.True);
+        }
+
+        Handles.Drawn.Clear();
+        MechanismGizmos.Draw(played.Component, GizmoType.Active);
+        Assert.That(Handles.Drawn, Has.Count.EqualTo(figures.Lines.Count));
+    }
+}

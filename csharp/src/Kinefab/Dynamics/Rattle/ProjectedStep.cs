@@ -43,7 +43,9 @@ internal sealed class ProjectedStep
         FreeMotion<ScalarLane>.Drift(batch, h);
         BilateralRows<ScalarLane>.Evaluate(batch);
         scalars?.AddWork();
-        if (!_closure.TryCloseEnd(tolerance))
+
+        // Closing the pose would make rotations of what is none.
+        if (!FreeMotion<ScalarLane>.HasFollowed(batch) || !_closure.TryCloseEnd(tolerance))
         {
             return false;
         }

@@ -56,7 +56,6 @@ internal sealed class StepController
         _exact = new ConjugateGradient(batch);
         _part = new Substep(batch, _exact);
         _closure = new PositionProjection(batch, _exact);
-        
         _start = new Snapshot(batch);
         for (int i = 0; i < _substepStarts.Length; i++)
         {

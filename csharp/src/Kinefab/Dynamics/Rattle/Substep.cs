@@ -24,9 +24,6 @@ internal sealed class Substep
     // Where a limit is passed within this share of a part, the pose was not what the drift began from.
     private const double LeastPiece = 1e-12;
 
-    // Largest error of a quaternion's square.
-    private const double MostStretch = 1e-3;
-
     private readonly LaneBatch<ScalarLane> _batch;
     private readonly ImplicitEulerStep _implicit;
     private readonly ConjugateGradient _exact;
@@ -297,20 +294,8 @@ internal sealed class Substep
                     return false;
                 }
             }
-
-            // A turn too wide for the series leaves a quaternion that is none.
-            double norm = 0;
-            for (int i = BodyLanes.Q; i < BodyLanes.EndX; i++)
-            {
-                norm += _batch.Bodies[o + i] * _batch.Bodies[o + i];
-            }
-
-            if (!(Math.Abs(norm - 1) < MostStretch))
-            {
-                return false;
-            }
         }
 
-        return true;
+        return FreeMotion<ScalarLane>.HasFollowed(_batch);
     }
 }

@@ -254,3 +254,48 @@ def test_links_of_a_model_collide_where_one_of_them_says_so(tmp_path: Path, mode
     with_crate = {frozenset((f"arm/{name}", "crate/box")) for name in ("base", "upper", "fore")}
     within = {frozenset(("arm/base", "arm/fore"))} if collides else set()
     assert touching(tmp_path / "arm.kinefab") == with_crate | within
+
+
+def robot(name: str, x: float, base: str = "", more: str = "") -> str:
+    """An arm on a hinge to a base that is fixed to the world, or to ``base``."""
+    own = f"""<link name="base"><inertial><mass>2</mass></inertial><collision name="c"><geometry><box><size>.2 .2 .2</size></box></geometry>
+</collision></link><joint name="foot" type="fixed"><parent>world</parent><child>base</child></joint>"""
+    return f"""<model name="{name}"><pose>{x} 0 0 0 0 0</pose>{"" if base else own}{more}<link name="arm"><pose>0 0 .3 0 0 0</pose>
+<inertial><mass>1</mass></inertial><collision name="c"><geometry><box><size>.1 .1 .3</size></box></geometry></collision></link>
+<joint name="pin" type="revolute"><parent>{base or "base"}</parent><child>arm</child><axis><xyz>0 1 0</xyz></axis></joint></model>"""
+
+
+FLOOR = """<model name="floor"><static>true</static><link name="plate"><collision name="c"><geometry><box><size>9 9 .1</size></box></geometry>
+</collision></link></model>"""
+ROBOTS = f'<sdf version="1.9"><world name="w">{FLOOR}{robot("one", 0)}{robot("two", 1)}{robot("hung", 2, "world")}</world></sdf>'
+
+
+def pairs(*names: tuple[str, str]) -> set[frozenset[str]]:
+    return {frozenset(pair) for pair in names}
+
+
+BETWEEN_ROBOTS = pairs(
+    *((arm, "floor/plate") for arm in ("one/arm", "two/arm", "hung/arm")),
+    ("one/arm", "two/base"),
+    ("two/arm", "one/base"),
+    ("hung/arm", "one/base"),
+    ("hung/arm", "two/base"),
+    ("one/arm", "two/arm"),
+    ("one/arm", "hung/arm"),
+    ("two/arm", "hung/arm"),
+)
+
+
+def test_each_robot_passes_its_own_base_alone(tmp_path: Path):
+    (tmp_path / "robots.sdf").write_text(ROBOTS, encoding="utf-8")
+    kinefab.export(tmp_path / "robots.sdf", tmp_path / "robots.kinefab")
+    assert touching(tmp_path / "robots.kinefab") == BETWEEN_ROBOTS
+
+
+def test_each_robot_passes_its_own_base_alone_when_read_again(tmp_path: Path):
+    (tmp_path / "robots.sdf").write_text(ROBOTS, encoding="utf-8")
+    kinefab.export(tmp_path / "robots.sdf", tmp_path / "robots.kinefab")
+    kinefab.export(tmp_path / "robots.kinefab", tmp_path / "again.kinefab")
+    kinefab.export(tmp_path / "robots.kinefab", tmp_path / "bare.kinefab", kinefab.ExportOptions(closures="minimal"))
+    assert touching(tmp_path / "again.kinefab") == BETWEEN_ROBOTS
+    assert touching(tmp_path / "bare.kinefab") == BETWEEN_ROBOTS

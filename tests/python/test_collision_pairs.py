@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+from dataclasses import replace
 from itertools import combinations
 from pathlib import Path
 
@@ -11,7 +12,7 @@ import numpy as np
 import pytest
 import trimesh
 from kinefab.geometry.looks.gltf_document import gltf_document
-from kinefab.model import Apart, JointKind
+from kinefab.model import Apart, Collider, ColliderKind, Colliding, JointKind, MassProperties, Node
 from kinefab.sources.mjcf.stacks import Axis, steps_of
 
 JOINTS = ("HingeJoint", "ConfigurableJoint", "FixedJoint")
@@ -109,6 +110,52 @@ def test_bodies_that_the_source_lets_pass_are_kept_apart_without_a_script(tmp_pa
     assert content["extras"]["ignoreCollision"] == [["A", "B"]]
     overlaps = [d.message for d in result.report.diagnostics if d.code == "COLLIDERS_OVERLAP"]
     assert not any("A" in message.split() and "B" in message.split() for message in overlaps)
+
+
+def grouped(*groups: tuple[str, ...], masks: dict[str, list[int]] | None = None) -> kinefab.Scene:
+    """Balls in a row; each has a collider for each of its groups."""
+    ball = Collider(ColliderKind.SPHERE, radius=0.1)
+    mass = MassProperties(1.0, np.zeros(3), np.eye(3))
+    nodes = [
+        Node(name, name, mass=mass, colliders=tuple(replace(ball, group=group) for group in own))
+        for name, own in zip("ABCD", groups)
+    ]
+    extras = {"collisionMasks": masks} if masks else {"collisionGroups": {"ghosts": ["stones", "ghosts"]}}
+    return kinefab.Scene(nodes, extras=extras)
+
+
+def test_groups_are_pairs_of_bodies(tmp_path: Path):
+    result = kinefab.export(grouped(("ghosts",), ("ghosts",), ("stones",), ("",)), tmp_path / "a.kinefab")
+    assert touching(tmp_path / "a.kinefab") == pairs(("A", "D"), ("B", "D"), ("C", "D"))
+    assert "GROUP_PARTLY_KEPT" not in {d.code for d in result.report.diagnostics}
+    assert "collision group ghosts" in {o.feature for o in result.report.outcomes}
+
+
+def test_masks_are_pairs_of_bodies(tmp_path: Path):
+    masks = {"floor": [1, 2], "foot": [2, 1], "shell": [4, 4]}
+    kinefab.export(grouped(("floor",), ("foot",), ("shell",), ("",), masks=masks), tmp_path / "a.kinefab")
+    assert touching(tmp_path / "a.kinefab") == pairs(("A", "B"), ("A", "D"), ("B", "D"))
+
+
+def test_a_body_of_which_a_part_passes_through_another_is_told(tmp_path: Path):
+    result = kinefab.export(grouped(("ghosts", ""), ("stones",)), tmp_path / "a.kinefab")
+    assert touching(tmp_path / "a.kinefab") == pairs(("A", "B"))
+    told = {o.feature for o in result.report.outcomes if o.code == "GROUP_PARTLY_KEPT"}
+    assert told == {"collision group ghosts", "collision group stones"}
+
+
+def test_a_pair_that_collides_in_spite_of_its_groups_does(tmp_path: Path):
+    scene = grouped(("ghosts",), ("stones",), ("stones",))
+    scene.colliding.append(Colliding(0, 1, "contact pair ghost"))
+    kinefab.export(scene, tmp_path / "a.kinefab")
+    assert touching(tmp_path / "a.kinefab") == pairs(("A", "B"), ("B", "C"))
+
+
+def test_gltf_tells_a_pair_that_collides_in_spite_of_its_groups(tmp_path: Path):
+    scene = grouped(("ghosts",), ("stones",), ("stones",))
+    scene.colliding.append(Colliding(0, 1, "contact pair ghost"))
+    result = kinefab.export(scene, tmp_path / "a.glb")
+    assert "contact pair ghost" in {o.feature for o in result.report.outcomes if o.code == "TARGET_FIELD_DROPPED"}
 
 
 def test_pairs_by_node_reach_usd(tmp_path: Path):

@@ -52,6 +52,7 @@ FLOORS: dict[str, list[set[str]]] = {
         {"bodies", "assets", "joints", "constraints", "mobility", "standing", "placing"},
         {"mapping", "overlaps", "sums"},
         {"welded"},
+        {"grouped"},
         {"counting", "links", "back"},
         {"__init__"},
     ],

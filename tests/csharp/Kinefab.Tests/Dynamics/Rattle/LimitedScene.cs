@@ -154,12 +154,7 @@ internal sealed class LimitedScene
         }
     }
 
-    private void AddCoupling()
-    {
-        CoordinateCoupling coupling = new(
-            new CoordinateAxisMap(_hinges[0], CoordinateAxis.AngularX, 1), new CoordinateAxisMap(_hinges[^1], CoordinateAxis.AngularX, 1), Between(-3, 3), 0);
-        _builder.Add(coupling);
-    }
+    private void AddCoupling() => _builder.Couple(_hinges[^1], (_hinges[0], Between(-3, 3)));
 
     private RevoluteJoint Hinge()
     {

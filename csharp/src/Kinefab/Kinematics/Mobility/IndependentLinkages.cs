@@ -94,7 +94,7 @@ internal sealed class IndependentLinkages
         }
 
         bodies.Remove(JointModel.World);
-        return Make(block, poses, moving, ToArray(bodies), ToArray(joints));
+        return Make(moving, ToArray(bodies), ToArray(joints), _couplings[block], joint => Joint(block, joint, poses));
 
         // What stands between two bodies of the block, the lower one's parent or a closing joint's end, moves with the upper one.
         void Carry(int body)
@@ -113,7 +113,47 @@ internal sealed class IndependentLinkages
         }
     }
 
-    private IndependentLinkage Make(int block, Pose[] poses, HashSet<int> moving, int[] bodies, int[] joints)
+    /// <summary>Some bodies with all that joins them to others, which stand still.</summary>
+    /// <param name="moving">The bodies.</param>
+    public IndependentLinkage Alone(HashSet<int> moving)
+    {
+        var joints = new SortedSet<int>();
+        foreach (int body in moving)
+        {
+            joints.UnionWith(JointsOf(body));
+        }
+
+        var couplings = new SortedSet<int>();
+        foreach (int joint in joints)
+        {
+            couplings.UnionWith(CouplingsOf(joint));
+        }
+
+        foreach (int i in couplings)
+        {
+            joints.Add(_whole.Coordinates[_whole.Couplings[i].A].Joint);
+            joints.Add(_whole.Coordinates[_whole.Couplings[i].B].Joint);
+        }
+
+        var bodies = new SortedSet<int>(moving);
+        foreach (int joint in joints)
+        {
+            bodies.Add(_whole.Joints[joint].Body0);
+            bodies.Add(_whole.Joints[joint].Body1);
+        }
+
+        bodies.Remove(JointModel.World);
+        return Make(moving, ToArray(bodies), ToArray(joints), couplings, joint => _whole.Joints[joint]);
+    }
+
+    private JointModel Joint(int block, int joint, Pose[] poses)
+    {
+        int child = _whole.Tree.ChildOf[joint];
+        bool isHeld = child >= 0 && _whole.Tree.Freedoms[child] > 0 && _blockOf[child] != block;
+        return isHeld ? Held(_whole.Joints[joint], poses) : _whole.Joints[joint];
+    }
+
+    private IndependentLinkage Make(HashSet<int> moving, int[] bodies, int[] joints, IEnumerable<int> coupled, Func<int, JointModel> jointOf)
     {
         var isFixed = new bool[bodies.Length];
         for (int i = 0; i < bodies.Length; i++)
@@ -125,17 +165,15 @@ internal sealed class IndependentLinkages
         var isClosure = new bool[joints.Length];
         for (int j = 0; j < joints.Length; j++)
         {
-            JointModel joint = _whole.Joints[joints[j]];
-            int child = _whole.Tree.ChildOf[joints[j]];
-            isClosure[j] = child < 0;
-            bool isHeld = child >= 0 && _whole.Tree.Freedoms[child] > 0 && _blockOf[child] != block;
-            own[j] = (isHeld ? Held(joint, poses) : joint).Between(IndexOf(joint.Body0), IndexOf(joint.Body1));
+            JointModel joint = jointOf(joints[j]);
+            isClosure[j] = _whole.Tree.ChildOf[joints[j]] < 0;
+            own[j] = joint.Between(IndexOf(joint.Body0), IndexOf(joint.Body1));
         }
 
         var coordinates = new List<int>();
         var ownCoordinates = new List<MechanismCoordinate>();
         var couplings = new List<PositionCoupling>();
-        foreach (int i in _couplings[block])
+        foreach (int i in coupled)
         {
             PositionCoupling coupling = _whole.Couplings[i];
             couplings.Add(coupling.Between(Coordinate(coupling.A), Coordinate(coupling.B)));

@@ -13,6 +13,8 @@ internal sealed class IndependentLinkages
     private readonly List<int>[] _movers;
     private readonly List<int>[] _joints;
     private readonly List<int>[] _couplings;
+    private readonly List<int>[] _jointsOf;
+    private readonly List<int>[] _couplingsOf;
 
     /// <summary>Of a linkage.</summary>
     /// <param name="whole">Which.</param>
@@ -25,6 +27,8 @@ internal sealed class IndependentLinkages
         _movers = Lists(blocks.Columns.Count);
         _joints = Lists(blocks.Columns.Count);
         _couplings = Lists(blocks.Columns.Count);
+        _jointsOf = Lists(whole.BodyCount);
+        _couplingsOf = Lists(whole.Joints.Length);
         Array.Fill(_blockOf, -1);
         foreach (int body in whole.Tree.Order)
         {
@@ -45,12 +49,17 @@ internal sealed class IndependentLinkages
         {
             int block = BlockOf(whole.Rows.Couplings[i]);
             Add(_couplings, block, i);
-            foreach (int term in whole.Couplings[i].Terms)
+            foreach (int joint in CoupledJoints(whole.Couplings[i]))
             {
-                Add(_joints, block, whole.Coordinates[term].Joint);
+                Add(_joints, block, joint);
+                _couplingsOf[joint].Add(i);
             }
+        }
 
-            Add(_joints, block, whole.Coordinates[whole.Couplings[i].Driven].Joint);
+        for (int joint = 0; joint < whole.Joints.Length; joint++)
+        {
+            Add(_jointsOf, whole.Joints[joint].Body0, joint);
+            Add(_jointsOf, whole.Joints[joint].Body1, joint);
         }
     }
 
@@ -124,19 +133,18 @@ internal sealed class IndependentLinkages
         var joints = new SortedSet<int>();
         foreach (int body in moving)
         {
-            joints.UnionWith(JointsOf(body));
+            joints.UnionWith(_jointsOf[body]);
         }
 
         var couplings = new SortedSet<int>();
         foreach (int joint in joints)
         {
-            couplings.UnionWith(CouplingsOf(joint));
+            couplings.UnionWith(_couplingsOf[joint]);
         }
 
         foreach (int i in couplings)
         {
-            joints.Add(_whole.Coordinates[_whole.Couplings[i].A].Joint);
-            joints.Add(_whole.Coordinates[_whole.Couplings[i].B].Joint);
+            joints.UnionWith(CoupledJoints(_whole.Couplings[i]));
         }
 
         var bodies = new SortedSet<int>(moving);
@@ -150,6 +158,16 @@ internal sealed class IndependentLinkages
         return Make(moving, ToArray(bodies), ToArray(joints), couplings, joint => _whole.Joints[joint]);
     }
 
+    private IEnumerable<int> CoupledJoints(PositionCoupling coupling)
+    {
+        yield return _whole.Coordinates[coupling.Driven].Joint;
+        foreach (int term in coupling.Terms)
+        {
+            yield return _whole.Coordinates[term].Joint;
+        }
+    }
+
+    // As a block has it.
     private JointModel Joint(int block, int joint, Pose[] poses)
     {
         int child = _whole.Tree.ChildOf[joint];
@@ -157,6 +175,7 @@ internal sealed class IndependentLinkages
         return isHeld ? Held(_whole.Joints[joint], poses) : _whole.Joints[joint];
     }
 
+    // jointOf: what stands for one of the whole's joints, between which bodies it is being no matter.
     private IndependentLinkage Make(HashSet<int> moving, int[] bodies, int[] joints, IEnumerable<int> coupled, Func<int, JointModel> jointOf)
     {
         var isFixed = new bool[bodies.Length];
@@ -169,9 +188,9 @@ internal sealed class IndependentLinkages
         var isClosure = new bool[joints.Length];
         for (int j = 0; j < joints.Length; j++)
         {
-            JointModel joint = jointOf(joints[j]);
+            JointModel joint = _whole.Joints[joints[j]];
             isClosure[j] = _whole.Tree.ChildOf[joints[j]] < 0;
-            own[j] = joint.Between(IndexOf(joint.Body0), IndexOf(joint.Body1));
+            own[j] = jointOf(joints[j]).Between(IndexOf(joint.Body0), IndexOf(joint.Body1));
         }
 
         var coordinates = new List<int>();

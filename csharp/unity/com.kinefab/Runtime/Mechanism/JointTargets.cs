@@ -9,7 +9,7 @@ namespace KinefabUnity
 {
     /// <summary>
     /// The joints' own drives sent to where the freedoms stand. A drive that the joint has keeps its strength; one that it has not is
-    /// lent the same that <see cref="Kinefab.KinefabCoupling"/> lends. Given back as they were.
+    /// lent the same that <see cref="KinefabCoupling"/> lends. Given back as they were.
     /// </summary>
     internal sealed class JointTargets
     {

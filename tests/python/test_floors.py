@@ -50,7 +50,7 @@ FLOORS: dict[str, list[set[str]]] = {
     "unity": [
         {"frames", "scene", "definitions", "container"},
         {"bodies", "assets", "joints", "constraints", "mobility", "standing", "placing"},
-        {"mapping", "overlaps", "sums"},
+        {"mapping", "overlaps"},
         {"welded"},
         {"grouped"},
         {"counting", "links", "back"},

@@ -120,6 +120,12 @@ public static class DiagnosticCodes
     /// <summary>The coupling couples a coordinate with itself.</summary>
     public const string CouplingItself = "COUPLING_ITSELF";
 
+    /// <summary>The coupling has two terms of one coordinate.</summary>
+    public const string CouplingTermTwice = "COUPLING_TERM_TWICE";
+
+    /// <summary>The coupling says twice what it follows: by 'terms' and by 'a' or 'ratio'.</summary>
+    public const string CouplingTermsBeside = "COUPLING_TERMS_BESIDE";
+
     /// <summary>The track has {keys} keys, the clip {times} times.</summary>
     public const string AnimationKeyCount = "ANIMATION_KEY_COUNT";
 

@@ -71,8 +71,7 @@ internal sealed class MultibodySystem
 
         foreach (CoordinateCoupling coupling in Couplings)
         {
-            tape.Value(ref coupling.LastA);
-            tape.Value(ref coupling.LastB);
+            tape.Array(coupling.Last);
         }
 
         tape.Array(reactions);

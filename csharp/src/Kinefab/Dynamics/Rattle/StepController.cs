@@ -179,7 +179,7 @@ internal sealed class StepController
     private static JointModel? JointOf(Island island, int row)
     {
         int n = Array.FindLastIndex(island.Pattern.Rows, first => first <= row);
-        return island.Blocks[n].Joint ?? island.Blocks[n].Coupling!.B.Joint;
+        return island.Blocks[n].Joint ?? island.Blocks[n].Coupling!.Coordinates[^1].Joint;
     }
 
     // Of the first part that no method could take.

@@ -88,7 +88,7 @@ public sealed class PhysicsImportTests
     [Test]
     public void Ground_OfTheSettings_IsTheSolversToo()
     {
-        using var scene = new EditedScene();
+        using var scene = new EditedScene("../csharp/unity/com.kinefab/Samples~/FourBar/FourBar.kinefab");
         JsonObject body = scene.Objects.SelectMany(o => o!["components"]?.AsArray() ?? []).Select(c => c!.AsObject()).First(c => (bool?)c["isKinematic"] == true);
         body.Remove("isKinematic");
         scene.Save();
@@ -98,7 +98,6 @@ public sealed class PhysicsImportTests
         Assert.That(held.Codes, Has.None.EqualTo("UNITY_GROUND_UNKNOWN"));
         Assert.That(All<Unity.Rigidbody>(held).Count(b => b.isKinematic), Is.EqualTo(All<Unity.Rigidbody>(free).Count(b => b.isKinematic) + 1));
         Assert.That(held.Root.GetComponent<KinefabMechanism>().CanDrag(All<Unity.Rigidbody>(held).Single(b => b.isKinematic).transform), Is.False);
-        Assert.That(free.Root.GetComponent<KinefabMechanism>().Freedoms, Has.Count.Not.EqualTo(held.Root.GetComponent<KinefabMechanism>().Freedoms.Count));
     }
 
     [Test]

@@ -318,6 +318,9 @@ public static class DiagnosticCodes
     /// <summary>The mechanism of {object} stood open by {gap} there at {time} s. The exact solver moved its bodies by up to {distance} and turned them by up to {turn} to close it, without giving them speed.</summary>
     public const string StartClosed = "START_CLOSED";
 
+    /// <summary>The mechanism of {object} had speeds at {time} s that its joints forbid, {speed} at this one. The exact solver took them off at once, which gives no energy.</summary>
+    public const string StartSpeedForbidden = "START_SPEED_FORBIDDEN";
+
     /// <summary>The exact solver takes the bodies' own masses, not massScale {own} and connectedMassScale {connected}.</summary>
     public const string MassScaleIgnored = "MASS_SCALE_IGNORED";
 

@@ -64,9 +64,9 @@ public static class StabilityAdvice
     {
         var found = new List<Diagnostic>();
         if (!e.Unity.IsSound)
-            found.Add(Remark(DiagnosticCodes.AdviceCannotFollow, ("solver", "unity")));
-        if (!e.Exact.IsSound)
-            found.Add(Remark(DiagnosticCodes.AdviceCannotFollow, ("solver", "exact")));
+            found.Add(Remark(DiagnosticCodes.AdviceCannotFollow, ("solver", "unity"), ("trouble", e.Unity.Trouble)));
+        if (e.ExactTrouble.Length > 0)
+            found.Add(Remark(DiagnosticCodes.AdviceCannotFollow, ("solver", "exact"), ("trouble", e.ExactTrouble)));
         if (e.Omitted > 0)
             found.Add(Remark(DiagnosticCodes.FindingsOmitted, ("count", Json.Invariant.Text(e.Omitted))));
         if (e.IsShortened)

@@ -10,6 +10,9 @@ namespace Kinefab.Advice.Runs;
 /// <summary>A scene simulated from its start pose, with everything that findings ask of it.</summary>
 internal sealed class SceneRun
 {
+    // Joints times parts of steps after which a run whose steps are forced is ended: a second or so.
+    private const double MostSubstepWork = 1e4;
+
     private SceneRun(World world, ValidScene scene, RunPlan plan)
     {
         Joints = new JointRecord[world.Joints.Count];
@@ -32,8 +35,11 @@ internal sealed class SceneRun
     /// <summary>Rotations of the bodies' objects by sample and body.</summary>
     public Quaterniond[][] Rotations { get; }
 
-    /// <summary>False where the solver could not follow the scene: nothing it says holds.</summary>
-    public bool IsSound { get; private set; }
+    /// <summary>False where the solver could not follow the scene: the run ended there, and nothing it says holds.</summary>
+    public bool IsSound => Trouble.Length == 0;
+
+    /// <summary>Why and when it ended early, as the end of a sentence; empty where it did not.</summary>
+    public string Trouble { get; private set; } = "";
 
     /// <summary>Runs a scene under a solver.</summary>
     /// <param name="scene">The scene, changed or not.</param>
@@ -55,13 +61,23 @@ internal sealed class SceneRun
             {
                 world.Step(dt);
                 run.Note(k >= plan.Samples / 2);
+                run.Trouble = TroubleOf(world);
+                if (!run.IsSound)
+                    return run;
             }
 
             run.Sample(world.Bodies, k);
         }
 
-        run.IsSound = world.Stops == 0;
         return run;
+    }
+
+    private static string TroubleOf(World world)
+    {
+        string cause = world.Stops > 0
+            ? world.Solver == SolverKind.Exact ? "a step has no solution" : "its motion leaves the range of numbers"
+            : world.SubstepWork > MostSubstepWork ? "its steps had to be cut again and again" : "";
+        return cause.Length == 0 ? "" : $"{cause}, and the run was ended after {AdviceMeasure.Text(world.Time)} s";
     }
 
     private void Note(bool isLate)

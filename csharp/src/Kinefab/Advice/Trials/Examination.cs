@@ -45,8 +45,8 @@ internal sealed class Examination
         Unity = SceneRun.Of(scene, SolverKind.Unity, Plan, 1, cancellation);
         options.Progress?.Report("exact");
         Exact = SceneRun.Of(scene, SolverKind.Exact, Plan, 1, cancellation);
-        SceneRun half = SceneRun.Of(scene, SolverKind.Exact, Plan, 2, cancellation);
-
+        SceneRun half = Exact.IsSound ? SceneRun.Of(scene, SolverKind.Exact, Plan, 2, cancellation) : Exact;
+        ExactTrouble = half.Trouble;
         Islands = RunIsland.Of(World, scene.Document.Couplings);
         Foreseen = Islands.Select(i => Exact.IsSound && half.IsSound ? Horizon(i, half) : 0).ToArray();
         Workbench = new Workbench(scene, Plan, World.Joints.Count, options, cancellation);
@@ -68,6 +68,9 @@ internal sealed class Examination
     public SceneRun Unity { get; }
 
     public SceneRun Exact { get; }
+
+    /// <summary>Why the exact run, or that at half the step, ended early; else empty.</summary>
+    public string ExactTrouble { get; }
 
     /// <summary>Null in a scene of too many joints to count rows in.</summary>
     public MobilityReport? Mobility { get; }

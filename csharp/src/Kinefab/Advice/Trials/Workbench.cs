@@ -16,12 +16,16 @@ internal sealed class Workbench
     /// <summary>Joints times steps times iterations that all trials together may cost: some seconds.</summary>
     public const double MostWork = 1.5e8;
 
+    // Exact runs that may fail before no more are begun: each costs a second.
+    private const int MostFailures = 3;
+
     private readonly Dictionary<string, Trial?> _trials = new(StringComparer.Ordinal);
     private readonly ValidScene _scene;
     private readonly AdviceOptions _options;
     private readonly double _workOfBase;
     private readonly CancellationToken _cancellation;
     private double _work;
+    private int _failures;
 
     public Workbench(ValidScene scene, RunPlan plan, int joints, AdviceOptions options, CancellationToken cancellation)
     {
@@ -64,9 +68,16 @@ internal sealed class Workbench
     /// <param name="prepare">Done to the changed scene's world before its first step.</param>
     public SceneRun? RunExact(string what, IEnumerable<ChangePart> parts, Action<ValidScene, World> prepare)
     {
+        if (_failures == MostFailures)
+        {
+            IsSpent = true;
+            return null;
+        }
+
         if (Begin(what, parts) is not ValidScene changed)
             return null;
         SceneRun run = SceneRun.Of(changed, SolverKind.Exact, Plan, 1, _cancellation, world => prepare(changed, world));
+        _failures += run.IsSound ? 0 : 1;
         return run.IsSound ? run : null;
     }
 

@@ -25,6 +25,9 @@ internal sealed class MultibodySystem
     /// <summary>Times that motion was stopped: a body's that left the range of numbers, or an island's in a part of a step without solution; counted by the solver.</summary>
     public int Stops;
 
+    /// <summary>Joints times parts of steps that were tried beyond the plain ones, of all steps so far; counted by the exact solver.</summary>
+    public double SubstepWork;
+
     /// <summary>Islands of which the last step could not be solved in whole; written by the exact solver.</summary>
     public readonly List<UnsolvedStep> Unsolved = new();
 

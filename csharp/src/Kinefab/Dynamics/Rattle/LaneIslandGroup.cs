@@ -20,6 +20,7 @@ internal abstract class IslandGroup
     /// <param name="stopsBefore">The step controller's stops before the step.</param>
     protected static void Note(MultibodySystem mechanism, StepController controller, Island island, int stopsBefore)
     {
+        mechanism.SubstepWork += (controller.Tries - 1.0) * island.Blocks.Length;
         if (controller.HasClosed)
         {
             mechanism.Closed.Add(controller.Closed(island));

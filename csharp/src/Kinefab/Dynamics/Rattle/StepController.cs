@@ -66,6 +66,9 @@ internal sealed class StepController
     /// <summary>Substeps in which the island stood still: not even implicit Euler could take them, or too many before them.</summary>
     public int DampedSteps { get; private set; }
 
+    /// <summary>Parts of the last step that were tried: 1 of a plain one.</summary>
+    public int Tries => _part.Tries;
+
     /// <summary>What was farthest from closed in the last step that had a stop.</summary>
     /// <param name="island">The island that was stepped; the batch may be of another of its shape.</param>
     public UnsolvedStep Unsolved(Island island)
@@ -121,6 +124,7 @@ internal sealed class StepController
         Array.Clear(_batch.Work.TotalImpulses, 0, _batch.Work.TotalImpulses.Length);
         _batch.ActiveSet?.ClearWork();
         _part.Begin(dt);
+        _part.Tries = 0;
         _tolerance = tolerance;
         _failures = 0;
         _dampedInStep = 0;

@@ -67,9 +67,13 @@ internal sealed class Substep
         _length = h;
     }
 
+    /// <summary>Pieces and parts that were tried since it was set to 0.</summary>
+    public int Tries { get; set; }
+
     /// <summary>RATTLE from the start pose, blow by blow; what a failure leaves is for the caller to restore.</summary>
     public bool TryRattle(double h, double tolerance)
     {
+        Tries++;
         ActiveSet<ScalarLane>? scalars = _batch.ActiveSet;
         if (scalars == null)
         {
@@ -101,6 +105,7 @@ internal sealed class Substep
                 return false;
             }
 
+            Tries++;
             left -= piece;
             if (!(left > 0))
             {
@@ -114,6 +119,7 @@ internal sealed class Substep
     /// <summary>Implicit Euler from the start pose.</summary>
     public bool TryImplicitEuler(double h, double tolerance)
     {
+        Tries++;
         if (_batch.ActiveSet != null)
         {
             _batch.ActiveSet.LocatesEvents = false;

@@ -76,6 +76,9 @@ public sealed partial class World
     /// </summary>
     public int Stops => _mechanism.Stops;
 
+    /// <inheritdoc cref="MultibodySystem.SubstepWork"/>
+    internal double SubstepWork => _mechanism.SubstepWork;
+
     /// <summary>Kinetic energy of all bodies, J.</summary>
     public double KineticEnergy
     {

@@ -1,7 +1,9 @@
 using System;
+using System.Collections.Generic;
 using System.Globalization;
 using System.IO;
 using System.Linq;
+using System.Text;
 using System.Text.Json.Nodes;
 using System.Text.RegularExpressions;
 using Kinefab.Advice;
@@ -345,6 +347,25 @@ public sealed class StabilityAdviceTests
     {
         AdviceReport advice = StabilityAdvice.Of(Wild());
         Assert.That(advice.Report.Diagnostics.Select(d => d.Code), Does.Contain(DiagnosticCodes.AdviceCannotFollow));
+    }
+
+    [Test]
+    public void Run_WithoutASolution_EndsThereAndSaysSo()
+    {
+        // Held to the world where it stands, and by a second joint to a place 5 m away: each step costs a thousand parts.
+        const string Locked = """{"type":"ConfigurableJoint","xMotion":"Locked","yMotion":"Locked","zMotion":"Locked","autoConfigureConnectedAnchor":false""";
+        string text = $$$"""{"format":"kinefab.scene","version":"1.0","gameObjects":[{"id":"a","name":"a","components":[{"type":"Rigidbody"},{{{Locked}}}},{{{Locked}}},"connectedAnchor":[5,0,0]}]}]}""";
+        var told = new List<string>();
+        AdviceReport advice = StabilityAdvice.Of(ValidScene.Load(Encoding.UTF8.GetBytes(text)), new AdviceOptions { Progress = new Teller(told) });
+
+        Diagnostic found = advice.Report.Diagnostics.Single(d => d.Code == DiagnosticCodes.AdviceCannotFollow);
+        Assert.That(found.Message, Does.Contain("exact").And.Contain("a step has no solution").And.Contain("ended after 0.02 s"));
+        Assert.That(told.Take(2), Is.EqualTo(new[] { "unity", "exact" }));
+    }
+
+    private sealed class Teller(List<string> told) : IProgress<string>
+    {
+        public void Report(string value) => told.Add(value);
     }
 
     [Test]

@@ -72,8 +72,8 @@ def write(content: Content, target: Path) -> tuple[Path, ...]:
                 del numbers["buffers"][0]["uri"]
         document = _document(scene, looks, numbers, report)
         if isinstance(content.scene, WrittenScene) and scene is content.scene.written:
-            for path, extras in content.scene.extras_at.items():
-                put_extras(document, path, whole_numbers(extras))
+            for way, extras in content.scene.extras_at.items():
+                put_extras(document, way, whole_numbers(extras))
         with replacing(target, "scene") as file:
             pieces = (piece.encode("utf-8") for piece in canonical_json(document))
             if binary:

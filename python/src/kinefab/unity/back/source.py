@@ -41,8 +41,7 @@ from ..joints.passive import with_passive_drives
 from ..mapping import GROUND_ID
 from ..scene import ArticulationBody, Collider, GameObject, Material, Mesh, MeshFilter, MeshRenderer, Rigidbody, UnityScene
 from ..scene.joints.configurable_joint import APART
-from .extras import Path as Way
-from .extras import extras_in
+from .extras import Way, extras_in
 from .pairs import pairs_apart
 from .restored import Restored, restored
 from .scene_file import read_buffers, read_scene_file, unsound_as_finding

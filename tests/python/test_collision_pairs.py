@@ -107,7 +107,9 @@ def test_bodies_that_the_source_lets_pass_are_kept_apart_without_a_script(tmp_pa
     result = kinefab.export(two_balls(), tmp_path / "balls.kinefab")
     assert touching(tmp_path / "balls.kinefab") == {frozenset("AC"), frozenset("BC")}
     content = json.loads((tmp_path / "balls.kinefab").read_text(encoding="utf-8"))
-    assert content["extras"]["ignoreCollision"] == [["A", "B"]]
+    names = [entry["id"] for entry in content["gameObjects"]]
+    (pair,) = content["ignoredCollisions"]
+    assert [names[pair[end]] for end in "ab"] == ["A", "B"] and pair["reason"]
     overlaps = [d.message for d in result.report.diagnostics if d.code == "COLLIDERS_OVERLAP"]
     assert not any("A" in message.split() and "B" in message.split() for message in overlaps)
 
@@ -185,6 +187,18 @@ def test_a_pair_with_what_stands_in_the_world_is_told(tmp_path: Path):
     result = kinefab.export(scene, tmp_path / "balls.kinefab", kinefab.ExportOptions(ground="world"))
     assert "PAIR_DROPPED" in {d.code for d in result.report.diagnostics}
     assert frozenset(("A", "Floor")) in touching(tmp_path / "balls.kinefab")
+
+
+@pytest.mark.parametrize("ignored", [True, False])
+def test_a_pair_that_the_source_lets_pass_is_not_said_to_overlap(tmp_path: Path, ignored: bool):
+    """Also where Unity does not keep it, which is told; other pairs are looked at, or that is said where the library is missing."""
+    scene = kinefab.Scene()
+    scene.add_part("A", trimesh.creation.box((0.2, 0.2, 0.2)))
+    scene.add_part("Floor", trimesh.creation.box((4, 0.1, 4)), grounded=True)
+    scene.apart += [Apart(0, 1, "filtered pair")] if ignored else []
+    result = kinefab.export(scene, tmp_path / "a.kinefab", kinefab.ExportOptions(ground="world"))
+    looked_at = {"COLLIDERS_OVERLAP", "OVERLAPS_NOT_CHECKED"} & {d.code for d in result.report.diagnostics}
+    assert bool(looked_at) is not ignored
 
 
 TWISTED = """<sdf version="1.9"><model name="m">

@@ -126,6 +126,9 @@ internal sealed class JointSweeps
         return _hasGiven;
     }
 
+    /// <summary>Impulse of a freedom's drive and friction in the step, N s or N m s.</summary>
+    public double MotorImpulse(int freedom) => _rows[freedom].MotorImpulse;
+
     private void Enter(int link, int parent, bool isVelocityIteration, double dt)
     {
         _impulses[link] = default;

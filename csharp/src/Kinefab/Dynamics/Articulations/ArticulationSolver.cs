@@ -100,12 +100,11 @@ internal sealed class ArticulationSolver
         LimitSpeeds();
         if (Tree.IsFixed)
             Tree.Motions[0] = default;
-        TreeKinematics.Move(Tree);
+        _dynamics.Update();
         Tree.Poses.CopyTo(_startPoses, 0);
         Tree.Motions.CopyTo(_startMotions, 0);
         Tree.Forces.CopyTo(_jointForces, 0);
         FindForces(gravity);
-        _dynamics.Update();
         _dynamics.FindInertias();
         if (Tree.IsFixed || !_rules.KeepsMomentum)
         {
@@ -132,8 +131,7 @@ internal sealed class ArticulationSolver
             _hasFriction |= link.Friction > 0;
         if (!_needsFlush)
             return;
-        Responses.FindResponses();
-        _sweeps.Prepare(dt, _hasFriction ? _carried.Find(_startPoses, _dynamics.Levers, _accelerations, _external) : default);
+        _sweeps.Prepare(dt, hasJoints, _hasFriction ? _carried.Find(_startPoses, _dynamics.Levers, _accelerations, _external) : default);
         _sweeps.Start();
     }
 
@@ -247,25 +245,22 @@ internal sealed class ArticulationSolver
     private void Accelerate(Wrench[] forces, double[] jointForces, bool withSpeedTerms)
     {
         _dynamics.Accelerate(forces, jointForces, withSpeedTerms);
+        bool addsUp = !Tree.IsFixed && _rules.KeepsMomentum;
         for (int i = 0; i < Tree.Count; i++)
         {
-            Tree.Motions[i] += _dynamics.Accelerations[i] * _dt;
-            _accelerations[i] = Tree.IsFixed || !_rules.KeepsMomentum ? _dynamics.Accelerations[i] : _accelerations[i] + _dynamics.Accelerations[i];
+            Twist acceleration = _dynamics.Accelerations[i];
+            Tree.Motions[i] += acceleration * _dt;
+            _accelerations[i] = addsUp ? _accelerations[i] + acceleration : acceleration;
         }
 
         for (int f = 0; f < Tree.Freedoms; f++)
-        {
-            double speed = Tree.Speeds[f] + _dynamics.JointAccelerations[f] * _dt;
-            Tree.Speeds[f] = speed;
-        }
+            Tree.Speeds[f] += _dynamics.JointAccelerations[f] * _dt;
     }
 
     private void Flush()
     {
-        if (!_needsFlush)
-            return;
-        Responses.Flush(Tree.Motions, Tree.Speeds, _scratch);
-        _sweeps.Start();
+        if (_needsFlush)
+            _sweeps.Flush();
     }
 
     private Pose Integrate(in Pose pose, in Twist motion) =>

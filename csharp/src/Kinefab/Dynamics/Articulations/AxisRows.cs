@@ -72,7 +72,9 @@ internal struct AxisRows
 
         if (_hasDrive)
         {
-            double drive = Math.Min(Math.Max(_driveShare * _drive + _driveSpeed * speed + _driveConstant, -_maxDrive), _maxDrive);
+            double drive = _driveShare * _drive + _driveSpeed * speed + _driveConstant;
+            if (Math.Abs(drive) > _maxDrive)
+                drive = drive > 0 ? _maxDrive : -_maxDrive;
             Give(drive - _drive, ref total, ref speed);
             _drive = drive;
         }

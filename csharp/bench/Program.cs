@@ -4,13 +4,14 @@ using System.Linq;
 
 namespace Kinefab.Bench;
 
-/// <summary>dotnet run -c Release --project csharp/bench -- drive|load|mobility|solver|articulation|peers|all [--write]</summary>
+/// <summary>dotnet run -c Release --project csharp/bench -- drive|load|start|mobility|solver|articulation|peers|all [--write]</summary>
 internal static class Program
 {
     private static readonly Dictionary<string, Func<string>> Benchmarks = new()
     {
         ["drive"] = Tables.Drive,
         ["load"] = Tables.Load,
+        ["start"] = Tables.Start,
         ["mobility"] = Tables.Mobility,
         ["solver"] = Tables.Solver,
         ["articulation"] = Tables.Articulation,

@@ -61,6 +61,8 @@ internal static class Tables
         ChainBenchmark.Run();
     });
 
+    internal static string Start() => Written(StartBenchmark.Run);
+
     internal static string Articulation() => Written(ArticulationBenchmark.Run);
 
     internal static string Peers() => Written(PeerBenchmark.Run);

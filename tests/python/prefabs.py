@@ -1,4 +1,4 @@
-"""Exports every mechanism of ``fixtures`` twice, as a scene and as a prefab: ``python tests/python/prefabs.py FOLDER``.
+"""Exports every mechanism of ``fixtures`` twice, as a scene and as a prefab: ``python tests/python/prefabs.py FOLDER KIND``.
 
 What the Unity package makes of the scene must be what stands in the prefab; the C# tests compare them, object by object.
 """
@@ -7,10 +7,12 @@ from __future__ import annotations
 
 import sys
 from dataclasses import replace
+from importlib.util import find_spec
 from pathlib import Path
 
 import kinefab
 from golden import FIXTURES, golden_pairs
+from prefab_scenes import rich_scene
 
 SETTINGS = {
     "body": kinefab.ExportOptions(),
@@ -21,25 +23,42 @@ MORE = ("lever/lever.urdf", "lever/lever.xml", "lever/lever.sdf", "lever/lever.F
 CLIPS = FIXTURES.parent / "tests" / "conformance" / "valid" / "animation"
 """Scenes, which are sources too."""
 LINKS = kinefab.ExportOptions(writing={"physics": "articulation"})
+PIPELINES = ("builtin", "urp", "hdrp")
+LOOKS = CLIPS.parent / "look" / "textured.kinefab"
 
 
-def main(folder: Path) -> int:
-    sources = [bundle for bundle, _ in golden_pairs()]
-    jobs = [(source, name, options) for source in sources for name, options in SETTINGS.items()]
-    jobs += [(FIXTURES / path, path.rpartition(".")[2], SETTINGS["body"]) for path in MORE]
-    jobs += [(source, "links", LINKS) for source in [*sources, FIXTURES / "lever/lever.urdf"]]
-    jobs += [(scene, "clips", SETTINGS["body"]) for scene in sorted(CLIPS.glob("*.kinefab"))]
-    for source, kind, options in jobs:
-        stem = source.name.partition(".")[0]
-        target = folder / f"{stem} {kind}"
+def looks(folder: Path) -> dict[str, object]:
+    """Sources with looks of every kind; where Pillow is not installed without the maps that it packs."""
+    scene = rich_scene(folder)
+    if find_spec("PIL") is not None:
+        return {"Rich": scene, "textured": LOOKS}
+    plain = {"metallic_roughness_texture": None, "occlusion_texture": None}
+    return {"Rich": replace(scene, surfaces=[replace(surface, **plain) for surface in scene.surfaces])}
+
+
+def main(folder: Path, kind: str) -> int:
+    sources: dict[str, object] = {source.name.partition(".")[0]: source for source, _ in golden_pairs()}
+    options, writing = SETTINGS.get(kind, SETTINGS["body"]), {}
+    if kind == "links":
+        options = LINKS
+        sources["lever urdf"] = FIXTURES / "lever/lever.urdf"
+    elif kind == "clips":
+        sources = {scene.stem: scene for scene in sorted(CLIPS.glob("*.kinefab"))}
+    elif kind in PIPELINES:
+        sources, writing = looks(folder), {"pipeline": kind}
+    elif kind == "body":
+        sources |= {path: FIXTURES / path for path in MORE}
+    for stem, source in sources.items():
+        stem = stem.replace("/", " ")
+        target = folder / stem
         target.mkdir(parents=True, exist_ok=True)
         try:
-            for ending in (".kinefab", ".prefab"):
-                kinefab.export(source, target / f"{stem}{ending}", replace(options))
+            kinefab.export(source, target / f"{stem}.kinefab", replace(options))
+            kinefab.export(source, target / f"{stem}.prefab", replace(options, writing={**options.writing, **writing}))
         except kinefab.KinefabError as fault:
-            print(f"{source.name} {kind}: {fault}", file=sys.stderr)
+            print(f"{stem} {kind}: {fault}", file=sys.stderr)
     return 0
 
 
 if __name__ == "__main__":
-    sys.exit(main(Path(sys.argv[1])))
+    sys.exit(main(Path(sys.argv[1]), sys.argv[2]))

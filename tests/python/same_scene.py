@@ -37,7 +37,8 @@ def plain(document: dict, without: set[str]) -> dict[str, object]:
                 found[f"{entry['id']} {component['type']} {name}"] = stripped(component, objects)
     for coupling in document.get("couplings", ()):
         name = coupling["id"].rpartition(":")[2].rpartition("/")[2]  # SDF's ids name the model too
-        found[f"coupling of {name}"] = (coupling["ratio"], coupling.get("offset", 0.0))
+        ratios = [term["ratio"] for term in coupling["terms"]] if "terms" in coupling else [coupling["ratio"]]
+        found[f"coupling of {name}"] = (ratios, coupling.get("offset", 0.0))
     return found
 
 

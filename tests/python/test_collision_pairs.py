@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+from dataclasses import replace
 from itertools import combinations
 from pathlib import Path
 
@@ -11,7 +12,7 @@ import numpy as np
 import pytest
 import trimesh
 from kinefab.geometry.looks.gltf_document import gltf_document
-from kinefab.model import Apart, JointKind
+from kinefab.model import Apart, Collider, ColliderKind, Colliding, JointKind, MassProperties, Node
 from kinefab.sources.mjcf.stacks import Axis, steps_of
 
 JOINTS = ("HingeJoint", "ConfigurableJoint", "FixedJoint")
@@ -109,6 +110,52 @@ def test_bodies_that_the_source_lets_pass_are_kept_apart_without_a_script(tmp_pa
     assert content["extras"]["ignoreCollision"] == [["A", "B"]]
     overlaps = [d.message for d in result.report.diagnostics if d.code == "COLLIDERS_OVERLAP"]
     assert not any("A" in message.split() and "B" in message.split() for message in overlaps)
+
+
+def grouped(*groups: tuple[str, ...], masks: dict[str, list[int]] | None = None) -> kinefab.Scene:
+    """Balls in a row; each has a collider for each of its groups."""
+    ball = Collider(ColliderKind.SPHERE, radius=0.1)
+    mass = MassProperties(1.0, np.zeros(3), np.eye(3))
+    nodes = [
+        Node(name, name, mass=mass, colliders=tuple(replace(ball, group=group) for group in own))
+        for name, own in zip("ABCD", groups)
+    ]
+    extras = {"collisionMasks": masks} if masks else {"collisionGroups": {"ghosts": ["stones", "ghosts"]}}
+    return kinefab.Scene(nodes, extras=extras)
+
+
+def test_groups_are_pairs_of_bodies(tmp_path: Path):
+    result = kinefab.export(grouped(("ghosts",), ("ghosts",), ("stones",), ("",)), tmp_path / "a.kinefab")
+    assert touching(tmp_path / "a.kinefab") == pairs(("A", "D"), ("B", "D"), ("C", "D"))
+    assert "GROUP_PARTLY_KEPT" not in {d.code for d in result.report.diagnostics}
+    assert "collision group ghosts" in {o.feature for o in result.report.outcomes}
+
+
+def test_masks_are_pairs_of_bodies(tmp_path: Path):
+    masks = {"floor": [1, 2], "foot": [2, 1], "shell": [4, 4]}
+    kinefab.export(grouped(("floor",), ("foot",), ("shell",), ("",), masks=masks), tmp_path / "a.kinefab")
+    assert touching(tmp_path / "a.kinefab") == pairs(("A", "B"), ("A", "D"), ("B", "D"))
+
+
+def test_a_body_of_which_a_part_passes_through_another_is_told(tmp_path: Path):
+    result = kinefab.export(grouped(("ghosts", ""), ("stones",)), tmp_path / "a.kinefab")
+    assert touching(tmp_path / "a.kinefab") == pairs(("A", "B"))
+    told = {o.feature for o in result.report.outcomes if o.code == "GROUP_PARTLY_KEPT"}
+    assert told == {"collision group ghosts", "collision group stones"}
+
+
+def test_a_pair_that_collides_in_spite_of_its_groups_does(tmp_path: Path):
+    scene = grouped(("ghosts",), ("stones",), ("stones",))
+    scene.colliding.append(Colliding(0, 1, "contact pair ghost"))
+    kinefab.export(scene, tmp_path / "a.kinefab")
+    assert touching(tmp_path / "a.kinefab") == pairs(("A", "B"), ("B", "C"))
+
+
+def test_gltf_tells_a_pair_that_collides_in_spite_of_its_groups(tmp_path: Path):
+    scene = grouped(("ghosts",), ("stones",), ("stones",))
+    scene.colliding.append(Colliding(0, 1, "contact pair ghost"))
+    result = kinefab.export(scene, tmp_path / "a.glb")
+    assert "contact pair ghost" in {o.feature for o in result.report.outcomes if o.code == "TARGET_FIELD_DROPPED"}
 
 
 def test_pairs_by_node_reach_usd(tmp_path: Path):
@@ -254,3 +301,48 @@ def test_links_of_a_model_collide_where_one_of_them_says_so(tmp_path: Path, mode
     with_crate = {frozenset((f"arm/{name}", "crate/box")) for name in ("base", "upper", "fore")}
     within = {frozenset(("arm/base", "arm/fore"))} if collides else set()
     assert touching(tmp_path / "arm.kinefab") == with_crate | within
+
+
+def robot(name: str, x: float, base: str = "", more: str = "") -> str:
+    """An arm on a hinge to a base that is fixed to the world, or to ``base``."""
+    own = f"""<link name="base"><inertial><mass>2</mass></inertial><collision name="c"><geometry><box><size>.2 .2 .2</size></box></geometry>
+</collision></link><joint name="foot" type="fixed"><parent>world</parent><child>base</child></joint>"""
+    return f"""<model name="{name}"><pose>{x} 0 0 0 0 0</pose>{"" if base else own}{more}<link name="arm"><pose>0 0 .3 0 0 0</pose>
+<inertial><mass>1</mass></inertial><collision name="c"><geometry><box><size>.1 .1 .3</size></box></geometry></collision></link>
+<joint name="pin" type="revolute"><parent>{base or "base"}</parent><child>arm</child><axis><xyz>0 1 0</xyz></axis></joint></model>"""
+
+
+FLOOR = """<model name="floor"><static>true</static><link name="plate"><collision name="c"><geometry><box><size>9 9 .1</size></box></geometry>
+</collision></link></model>"""
+ROBOTS = f'<sdf version="1.9"><world name="w">{FLOOR}{robot("one", 0)}{robot("two", 1)}{robot("hung", 2, "world")}</world></sdf>'
+
+
+def pairs(*names: tuple[str, str]) -> set[frozenset[str]]:
+    return {frozenset(pair) for pair in names}
+
+
+BETWEEN_ROBOTS = pairs(
+    *((arm, "floor/plate") for arm in ("one/arm", "two/arm", "hung/arm")),
+    ("one/arm", "two/base"),
+    ("two/arm", "one/base"),
+    ("hung/arm", "one/base"),
+    ("hung/arm", "two/base"),
+    ("one/arm", "two/arm"),
+    ("one/arm", "hung/arm"),
+    ("two/arm", "hung/arm"),
+)
+
+
+def test_each_robot_passes_its_own_base_alone(tmp_path: Path):
+    (tmp_path / "robots.sdf").write_text(ROBOTS, encoding="utf-8")
+    kinefab.export(tmp_path / "robots.sdf", tmp_path / "robots.kinefab")
+    assert touching(tmp_path / "robots.kinefab") == BETWEEN_ROBOTS
+
+
+def test_each_robot_passes_its_own_base_alone_when_read_again(tmp_path: Path):
+    (tmp_path / "robots.sdf").write_text(ROBOTS, encoding="utf-8")
+    kinefab.export(tmp_path / "robots.sdf", tmp_path / "robots.kinefab")
+    kinefab.export(tmp_path / "robots.kinefab", tmp_path / "again.kinefab")
+    kinefab.export(tmp_path / "robots.kinefab", tmp_path / "bare.kinefab", kinefab.ExportOptions(closures="minimal"))
+    assert touching(tmp_path / "again.kinefab") == BETWEEN_ROBOTS
+    assert touching(tmp_path / "bare.kinefab") == BETWEEN_ROBOTS

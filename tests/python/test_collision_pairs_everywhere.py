@@ -4,11 +4,17 @@ from __future__ import annotations
 
 import json
 import xml.etree.ElementTree as xml
+from dataclasses import replace
 from itertools import combinations
 from pathlib import Path
 
 import kinefab
+import numpy as np
 import pytest
+from kinefab.diagnostics import Report
+from kinefab.model import AnimationClip, Constraint, Coupling, Joint, Node, NodeKind
+from kinefab.pipeline import prepared
+from kinefab.spatial import Pose
 
 ROOT = Path(__file__).parents[2]
 BUNDLES = sorted((ROOT / "fixtures").glob("*/*.bundle.json"))
@@ -64,8 +70,8 @@ class Written:
         return {pair for pair in found if pair is not None and pair <= bodies}
 
 
-def exported(source: Path, folder: Path) -> Written:
-    kinefab.export(source, folder / "scene.kinefab")
+def exported(source: Path | kinefab.Scene, folder: Path) -> Written:
+    kinefab.export(source, folder / "scene.kinefab", kinefab.ExportOptions(colliders="box"))
     return Written(folder / "scene.kinefab")
 
 
@@ -120,3 +126,74 @@ def test_robot(source: Path, tmp_path: Path):
     kept = [tuple(pair) for pair in pairs if len(pair) == 2 and set(pair) <= set(present)]
     expected = {scene.pair(present[a], present[b]) for a, b in kept} - {None}
     assert scene.apart(set(present.values())) == expected
+
+
+BESIDE_IT = Pose(np.eye(3), np.array([0.5, 0.25, -0.125]))
+COPY = "copy of "
+
+
+def twice(scene: kinefab.Scene) -> kinefab.Scene:
+    """The scene with a copy of everything in it, half a metre beside it."""
+    count = len(scene.nodes)
+
+    def on(node: int | None) -> int | None:
+        return None if node is None else node + count
+
+    def node(own: Node) -> Node:
+        made = replace(own, id=COPY + own.id, parent=on(own.parent), pose=BESIDE_IT @ own.pose)
+        return replace(made, helps=on(own.helps))
+
+    def joint(own: Joint) -> Joint:
+        moved = {"a": on(own.a), "b": on(own.b)}
+        moved |= {"frame_a": BESIDE_IT @ own.frame_a} if own.a is None else {}
+        moved |= {"frame_b": BESIDE_IT @ own.frame_b} if own.b is None else {}
+        return replace(own, id=COPY + own.id, **moved)
+
+    def constraint(own: Constraint) -> Constraint:
+        features = [replace(f, node=on(f.node)) for f in own.features]
+        features = [
+            replace(f, point=BESIDE_IT.point(f.point)) if f.node is None else f for f in features
+        ]
+        return replace(own, id=COPY + own.id, features=tuple(features))
+
+    def coupling(own: Coupling) -> Coupling:
+        terms = tuple(replace(term, joint=COPY + term.joint) for term in own.terms)
+        return replace(own, id=COPY + own.id, joint=COPY + own.joint, terms=terms)
+
+    def clip(own: AnimationClip) -> AnimationClip:
+        return replace(own, tracks=tuple(replace(track, node=track.node + count) for track in own.tracks))
+
+    return replace(
+        scene,
+        nodes=[*scene.nodes, *map(node, scene.nodes)],
+        joints=[*scene.joints, *map(joint, scene.joints)],
+        constraints=[*scene.constraints, *map(constraint, scene.constraints)],
+        couplings=[*scene.couplings, *map(coupling, scene.couplings)],
+        dof_records=[],
+        animations=[*scene.animations, *map(clip, scene.animations)],
+        apart=[*scene.apart, *(replace(pair, a=pair.a + count, b=pair.b + count) for pair in scene.apart)],
+    )
+
+
+def passing(scene: Written, parts: set[str]) -> set[frozenset[str]]:
+    """Pairs of parts that a joint keeps from colliding, by their ids."""
+    there = [i for i, entry in enumerate(scene.objects) if entry["id"].removeprefix(COPY) in parts]
+    kept = scene.apart(set(there))
+    return {
+        frozenset((scene.objects[a]["id"], scene.objects[b]["id"]))
+        for a, b in combinations(there, 2)
+        if scene.pair(a, b) in kept
+    }
+
+
+@pytest.mark.parametrize("source", [*BUNDLES, *ROBOTS], ids=lambda path: path.name.removesuffix(".bundle.json"))
+def test_of_two_machines_neither_passes_the_other(source: Path, tmp_path: Path):
+    """Of a scene and its copy: within each the same pairs as when it stands alone, and none between the two."""
+    try:
+        scene = prepared(source, kinefab.ExportOptions(), Report())
+        parts = {node.id for node in scene.nodes if node.kind is NodeKind.PART}
+        alone = passing(exported(scene, tmp_path), parts)
+    except kinefab.KinefabError as error:
+        pytest.skip(f"the fixture shows a fault: {error}")
+    copied = {frozenset(COPY + name for name in pair) for pair in alone}
+    assert passing(exported(twice(scene), tmp_path), parts) == alone | copied

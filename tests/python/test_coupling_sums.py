@@ -1,4 +1,4 @@
-"""Couplings of several terms in formats whose couplings follow one coordinate: light bodies whose motions add up."""
+"""Couplings of several terms: as they are in a scene; in a stage, whose mimics follow one coordinate, by light bodies whose motions add up."""
 
 from __future__ import annotations
 
@@ -71,9 +71,10 @@ def test_a_sum_moves_as_in_the_source(follower: str, moved: bool, tmp_path: Path
     scene = machine(follower, moved)
     result = kinefab.export(scene, tmp_path / "m.kinefab")
     content = read(result.path)
-    codes = [d.code for d in result.report.diagnostics]
-    assert codes == ["COUPLING_BY_MIDDLE_BODIES"]
-    assert len(content["couplings"]) == 3
+    assert not result.report.diagnostics
+    (coupling,) = content["couplings"]
+    assert content["version"] == "1.1" and len(coupling["terms"]) == 2 and not {"a", "ratio"} & coupling.keys()
+    assert len(content["gameObjects"]) == 5  # and the ground
     written = kinefab.motion(result.path)
     assert written.mobility == kinefab.motion(scene).mobility == 2 + moved
     assert moves_as_stated(written, 1e-6)
@@ -88,19 +89,21 @@ def test_the_tool_counts_and_moves_a_sum_as_the_source_does(follower: str, tmp_p
     assert said["valid"] and said["diagnostics"] == []
     counted = tool("mobility", target)
     assert counted["mobility"]["mobility"] == 3 and counted["diagnostics"] == []
+    swept = tool("sweep", target, "--driver", "Right", "--from", "0", "--to", "40", "--steps", "5")
+    assert swept["stop"] is None
 
 
-def test_joints_of_more_than_one_sum_and_names_that_are_taken(tmp_path: Path):
-    """Two sums of the same joints, one named as a part is."""
+def test_joints_of_more_than_one_sum(tmp_path: Path):
+    """Two sums of the same joints, read again and written for a prefab."""
     scene = machine("Slide", moved=False)
-    extra = scene.add_part("sum:1", BOX, density=1000, translation=(4, 0, 0))
+    extra = scene.add_part("Extra", BOX, density=1000, translation=(4, 0, 0))
     hinge = scene.add_joint(JointKind.REVOLUTE, None, extra, point=(4, 0, 0), axis=(0, 1, 0), name="Fourth")
     ids = {joint.name: joint.id for joint in scene.joints}
     terms = (Term(ids["Left"], RX, 3.0), Term(ids["Right"], RX, 0.5))
     scene.couplings.append(Coupling("again", CouplingKind.LINEAR, hinge.id, RX, terms))
     content = read(kinefab.export(scene, tmp_path / "m.kinefab").path)
-    names = [entry["id"] for entry in content["gameObjects"]]
-    assert len(set(names)) == len(names) and "sum:1#2" in names
+    again = read(kinefab.export(tmp_path / "m.kinefab", tmp_path / "again.kinefab").path)
+    assert again["couplings"] == content["couplings"] and len(content["couplings"]) == 2
     written = kinefab.motion(tmp_path / "m.kinefab")
     reached = written.follow({"Left": np.linspace(0, 20, 5), "Right": np.linspace(0, -10, 5)})
     assert written.mobility == 2 and reached["Fourth"][-1] == pytest.approx(55.0, abs=1e-6)

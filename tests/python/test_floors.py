@@ -50,8 +50,9 @@ FLOORS: dict[str, list[set[str]]] = {
     "unity": [
         {"frames", "scene", "definitions", "container"},
         {"bodies", "assets", "joints", "constraints", "mobility", "standing", "placing"},
-        {"mapping", "overlaps", "sums"},
+        {"mapping", "overlaps"},
         {"welded"},
+        {"grouped"},
         {"counting", "links", "back"},
         {"__init__"},
     ],

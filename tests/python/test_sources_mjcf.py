@@ -359,7 +359,35 @@ def test_shapes_say_what_is_drawn_and_what_is_touched(tmp_path):
     material = touched["box"].material
     assert (material.dynamic_friction, material.friction_combine) == (0.7, Combine.MAXIMUM)
     assert touched["hull"].kind is ColliderKind.HULL and touched["pill"].length == pytest.approx(0.4)
-    assert {"MJCF_COLLISION_FILTER", "MJCF_GEOM_UNSEEN"} <= codes(report)
+    assert "MJCF_GEOM_UNSEEN" in codes(report)
+    assert scene.extras["collisionMasks"] == {"contype 2 conaffinity 5": [2, 5]}
+
+
+TOUCHING = """<geom name="floor" type="plane" size="1 1 1"/>
+<body name="a"><joint name="ja" axis="0 1 0"/><geom name="ga" size=".1"/>
+<body name="b" pos="0 0 1"><joint name="jb" axis="0 1 0"/><geom name="gb" size=".1" contype="0" conaffinity="0"/></body></body>"""
+
+
+def collide(scene) -> dict[str, bool]:
+    return {joint.id: joint.collide for joint in scene.joints}
+
+
+def test_what_is_joined_to_the_world_collides_with_it(tmp_path):
+    """MuJoCo's filter of parents leaves out the world and what is welded to it."""
+    assert collide(loaded(tmp_path, TOUCHING)[0]) == {"ja": True, "jb": False}
+    excluded = loaded(tmp_path, TOUCHING, tail="<contact><exclude body1='world' body2='a'/></contact>")[0]
+    assert collide(excluded) == {"ja": False, "jb": False}
+    switched = loaded(tmp_path, TOUCHING, head="<option><flag filterparent='disable'/></option>")[0]
+    assert collide(switched) == {"ja": True, "jb": True}
+
+
+def test_a_stated_pair_collides_across_a_joint_and_in_spite_of_masks(tmp_path):
+    tail = "<contact><pair name='p' geom1='ga' geom2='gb'/><exclude body1='a' body2='b'/></contact>"
+    scene, report = loaded(tmp_path, TOUCHING, tail=tail)
+    (pair,) = scene.colliding
+    assert {scene.nodes[pair.a].name, scene.nodes[pair.b].name} == {"a", "b"}
+    assert (pair.reason, scene.apart, collide(scene)["jb"]) == ("contact pair p", [], True)
+    assert "contact pair p" in {o.feature for o in report.outcomes if not o.code}
 
 
 def test_contact_excludes_are_pairs_of_nodes(tmp_path):

@@ -254,8 +254,7 @@ def test_clips_are_mirrored_key_by_key(tmp_path):
 
 
 def test_textures_physics_materials_and_sums_are_carried(tmp_path):
-    """An image once for each colour space, byte for byte; of a coupling of several terms, light bodies and couplings of one take
-    the place."""
+    """An image once for each colour space, byte for byte; a coupling of several terms is one."""
     rubber = PhysicsMaterial("rubber", 0.9, 1.0)
     scene = arm(
         bodies=(Body("b", 0, (0,)),),
@@ -274,7 +273,10 @@ def test_textures_physics_materials_and_sums_are_carried(tmp_path):
     terms = (Term("Hinge", RX, 0.1), Term("Swing", RX, -0.2))
     scene.couplings.append(Coupling("Sum", CouplingKind.LINEAR, "Slide", TX, terms))
     content, result = written(scene, tmp_path)
-    assert len(content["couplings"]) == 3 and content["analysis"]["mobility"] == 2
+    stated = content["couplings"][0]["terms"]
+    assert [content["gameObjects"][term["coordinate"]["gameObject"]]["id"] for term in stated] == ["Arm", "Arm2"]
+    assert [term["ratio"] for term in stated] == pytest.approx([0.1 * math.pi / 180, -0.2 * math.pi / 180])
+    assert content["analysis"]["mobility"] == 2
     (coupling,) = result.unity.couplings
     assert [t.ratio for t in coupling.terms] == pytest.approx([0.1 * math.pi / 180, -0.2 * math.pi / 180])
     assert outcomes(result, Outcome.DROPPED) == set()

@@ -1,4 +1,5 @@
 using System;
+using System.Collections.Generic;
 using System.Globalization;
 using System.IO;
 using System.Linq;
@@ -55,7 +56,8 @@ internal static class SummaryText
     private static string Describe(Coupling coupling, SceneDocument document)
     {
         string offset = coupling.Offset == 0 ? "" : " + " + Number(coupling.Offset);
-        return $"{coupling.Kind}: {Describe(coupling.B, document)} = {coupling.Ratio.ToString("G6", CultureInfo.InvariantCulture)} * {Describe(coupling.A, document)}{offset}";
+        IEnumerable<string> terms = coupling.Followed.Select(term => $"{term.Ratio.ToString("G6", CultureInfo.InvariantCulture)} * {Describe(term.Coordinate, document)}");
+        return $"{coupling.Kind}: {Describe(coupling.B, document)} = {string.Join(" + ", terms)}{offset}";
     }
 
     private static string Describe(JointCoordinate coordinate, SceneDocument document) =>

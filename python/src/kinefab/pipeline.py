@@ -40,6 +40,7 @@ from .targets.content import Content
 from .unity.back.source import WrittenScene
 from .unity.bodies.colliders import Colliders
 from .unity.bodies.mated import with_mated_apart
+from .unity.grouped import with_groups_apart
 from .unity.joints.breaking import with_sound_breaks
 from .unity.mapping import map_scene
 from .unity.overlaps import check_overlaps
@@ -268,9 +269,8 @@ def _mapped(found: Analysed, options: ExportOptions, links: bool, report: Report
     made = collision_meshes(found.scene, groups, options.colliders, options.ground, convex, report)
     colliders = Colliders.behind(len(scene.meshes), made, options.colliders, options.ground, convex)
     entry, held = scene_entry(found.analysis), holding(found.analysis)
-    mapped = with_welded_apart(
-        map_scene(scene, groups, colliders, report, entry, held, found.analysis.findings)
-    )
+    mapped = map_scene(scene, groups, colliders, report, entry, held, found.analysis.findings)
+    mapped = with_groups_apart(with_welded_apart(mapped), found.scene, report)
     check_overlaps(mapped, report)
     report.settle()
     return mapped

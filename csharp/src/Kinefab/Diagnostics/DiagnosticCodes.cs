@@ -120,6 +120,12 @@ public static class DiagnosticCodes
     /// <summary>The coupling couples a coordinate with itself.</summary>
     public const string CouplingItself = "COUPLING_ITSELF";
 
+    /// <summary>The coupling has two terms of one coordinate.</summary>
+    public const string CouplingTermTwice = "COUPLING_TERM_TWICE";
+
+    /// <summary>The coupling says twice what it follows: by 'terms' and by 'a' or 'ratio'.</summary>
+    public const string CouplingTermsBeside = "COUPLING_TERMS_BESIDE";
+
     /// <summary>The track has {keys} keys, the clip {times} times.</summary>
     public const string AnimationKeyCount = "ANIMATION_KEY_COUNT";
 
@@ -311,6 +317,9 @@ public static class DiagnosticCodes
 
     /// <summary>The mechanism of {object} stood open by {gap} there at {time} s. The exact solver moved its bodies by up to {distance} and turned them by up to {turn} to close it, without giving them speed.</summary>
     public const string StartClosed = "START_CLOSED";
+
+    /// <summary>The mechanism of {object} had speeds at {time} s that its joints forbid, {speed} at this one. The exact solver took them off at once, which gives no energy.</summary>
+    public const string StartSpeedForbidden = "START_SPEED_FORBIDDEN";
 
     /// <summary>The exact solver takes the bodies' own masses, not massScale {own} and connectedMassScale {connected}.</summary>
     public const string MassScaleIgnored = "MASS_SCALE_IGNORED";

@@ -1,40 +1,65 @@
+using System.Collections.Generic;
 using Kinefab.Numerics;
 
 namespace Kinefab.Joints;
 
 /// <summary>
-/// A linear relation between two joint coordinates, for gears, belts, racks and screws. PhysX 4.1 and Unity have no such
-/// joint: here it is one rigid row over the up to four bodies of both joints, so that reactions act where they should.
-/// C = q_B - Ratio q_A - Offset; Cdot = row_B - Ratio row_A.
+/// A linear relation between joint coordinates, for gears, belts, racks, screws and what follows several joints. PhysX 4.1 and Unity
+/// have no such joint: here it is one rigid row over the bodies of all its joints, so that reactions act where they should.
+/// C = sum of Factor_i q_i - Offset; Cdot = sum of Factor_i row_i.
 /// </summary>
 internal sealed class CoordinateCoupling
 {
-    public readonly CoordinateAxisMap A;
-    public readonly CoordinateAxisMap B;
+    /// <summary>Those that are followed, then the one that follows.</summary>
+    public readonly CoordinateAxisMap[] Coordinates;
 
-    /// <summary>Unit of B for each unit of A, radians and metres.</summary>
-    public readonly double Ratio;
+    /// <summary>For each coordinate: 1 for the one that follows, of the others less its unit for each unit of theirs, radians and metres.</summary>
+    public readonly double[] Factors;
 
-    /// <summary>Unit of B.</summary>
+    /// <summary>Unit of the coordinate that follows.</summary>
     public readonly double Offset;
 
     /// <summary>Coordinates at the last finished step; angles are unwrapped against them.</summary>
-    public double LastA;
-    public double LastB;
+    public readonly double[] Last;
 
-    public CoordinateCoupling(CoordinateAxisMap a, CoordinateAxisMap b, double ratio, double offset)
+    /// <summary>The rows of the coordinates where they were evaluated last.</summary>
+    public readonly ConstraintRow[] Rows;
+
+    public CoordinateCoupling(CoordinateAxisMap driven, IReadOnlyList<(CoordinateAxisMap Coordinate, double Ratio)> terms, double offset)
     {
-        A = a;
-        B = b;
-        Ratio = ratio;
+        Coordinates = new CoordinateAxisMap[terms.Count + 1];
+        Factors = new double[Coordinates.Length];
+        for (int i = 0; i < terms.Count; i++)
+        {
+            Coordinates[i] = terms[i].Coordinate;
+            Factors[i] = -terms[i].Ratio;
+        }
+
+        Coordinates[^1] = driven;
+        Factors[^1] = 1;
         Offset = offset;
+        Last = new double[Coordinates.Length];
+        Rows = new ConstraintRow[Coordinates.Length];
     }
 
-    /// <summary>C and its two half rows at the poses of both joints' bodies (0 and 1 of A, 0 and 1 of B).</summary>
-    public double Prepare(in Pose a0, in Pose a1, in Pose b0, in Pose b1, out ConstraintRow rowA, out ConstraintRow rowB)
+    /// <summary>Whether none of its joints has broken.</summary>
+    public bool IsWhole
     {
-        double qA = A.Evaluate(a0, a1, LastA, out rowA);
-        double qB = B.Evaluate(b0, b1, LastB, out rowB);
-        return qB - Ratio * qA - Offset;
+        get
+        {
+            foreach (CoordinateAxisMap coordinate in Coordinates)
+            {
+                if (coordinate.Joint.IsBroken)
+                {
+                    return false;
+                }
+            }
+
+            return true;
+        }
     }
+
+    /// <summary>Factor times coordinate at the poses of its joint's bodies; its row is noted in <see cref="Rows"/>.</summary>
+    public double Evaluate(int coordinate, in Pose body0, in Pose body1) =>
+        Factors[coordinate] * Coordinates[coordinate].Evaluate(body0, body1, Last[coordinate], out Rows[coordinate]);
 }

@@ -33,7 +33,7 @@ from .freedoms import (
 from .ids import IN_BRACKETS, free_id
 from .joints import UNLOCKED, Joint, JointKind, alike_from_both_sides, freedoms_of, kind_of, unlocked_of
 from .meshes import Mesh, MeshKey, MeshReference
-from .pairs import Apart
+from .pairs import Apart, Colliding, ignored_groups
 from .parts import Body, Dynamics, MassProperties, Node, NodeKind, Site
 from .scene import EARTH, Physics, Scene, Source, SourceFile
 from .sides import Exchange, exchange_of, is_same_from_both_sides
@@ -46,6 +46,7 @@ __all__ = [
     "Body",
     "Collider",
     "ColliderKind",
+    "Colliding",
     "Combine",
     "Constraint",
     "ConstraintKind",
@@ -103,6 +104,7 @@ __all__ = [
     "exchange_of",
     "free_id",
     "freedoms_of",
+    "ignored_groups",
     "is_same_from_both_sides",
     "kind_of",
     "unlocked_of",

@@ -11,7 +11,7 @@ from .constraints import Constraint, DofRecord
 from .couplings import Coupling
 from .joints import Joint
 from .meshes import Mesh
-from .pairs import Apart
+from .pairs import Apart, Colliding
 from .parts import Node
 from .surfaces import Surface
 
@@ -59,6 +59,7 @@ class Scene:
     offers: what else the source can give, by the name of the option that asks for it: names of its variants
         (``variant``: "set=name"), of its keyframes (``keyframe``).
     apart: pairs of bodies that pass through each other by the source's own rule, beside those that joints keep from colliding.
+    colliding: pairs of bodies that collide by the source's own rule, whatever their groups; a joint between such two has ``collide``.
     identities: by the id of a node, joint, constraint or coupling, where ids are made of names that people change: what it is in
         the source whatever it is called there.  By it a prefab knows its objects again.
     counted: ids that say nothing of the one that has them, as the source has no name for it and its reader counted: of nodes and
@@ -78,6 +79,7 @@ class Scene:
     offers: Mapping[str, tuple[str, ...]] = field(default_factory=dict[str, tuple[str, ...]])
     extras: Mapping[str, object] = field(default_factory=dict[str, object])
     apart: list[Apart] = field(default_factory=list[Apart])
+    colliding: list[Colliding] = field(default_factory=list[Colliding])
     identities: Mapping[str, str] = field(default_factory=dict[str, str])
     counted: set[str] = field(default_factory=set[str])
 

@@ -25,7 +25,6 @@ from ..unity.counting import with_led_joints_on_light_bodies
 from ..unity.joints.passive import withdraw_stated
 from ..unity.links.tree import articulated
 from ..unity.scene import BodyFreedom, Component, Coupling, GameObject, Joint, Mobility, UnityScene
-from ..unity.sums import with_one_term_each
 from .content import Content
 from .noun_entry import Noun, entry, needs_newer, newer_keys, unsaid
 from .numbers import plain_value, significant, whole_numbers
@@ -101,7 +100,7 @@ def _write_in_one(
 def _in_unity(content: Content) -> UnityScene:
     """In Unity's terms, as the format can say them; by links where that is asked for."""
     links = content.options.get("physics") == "articulation"
-    scene = with_led_joints_on_light_bodies(with_one_term_each(content.unity(links), content.report))
+    scene = with_led_joints_on_light_bodies(content.unity(links))
     if not links:
         for joint in content.scene.joints:  # a scene has fields for what no joint of Unity's has
             withdraw_stated(joint, content.report)
@@ -125,6 +124,7 @@ def _is_newer(scene: UnityScene, looks: Looks, numbers: dict[str, Any]) -> bool:
     lists = {"mesh": numbers.get("meshes", ()), "material": looks.materials}
     return (
         bool(scene.physicsMaterials or looks.images)
+        or any(len(coupling.terms) > 1 for coupling in scene.couplings)
         or any("uri" not in buffer for buffer in numbers.get("buffers", ()))
         or any(newer_keys(definition) & entry.keys() for definition, entries in lists.items() for entry in entries)
         or any(needs_newer(entry) or any(map(needs_newer, entry.components)) for entry in scene.gameObjects)
@@ -177,15 +177,14 @@ def _analysis(found: Mobility) -> dict[str, Any]:
 
 
 def _coupling(coupling: Coupling) -> dict[str, Any]:
-    """``q_b = ratio * q_a + offset``."""
-    (term,) = coupling.terms
-    found = {
-        "id": coupling.id,
-        "kind": coupling.kind,
-        "a": entry(term.coordinate),
-        "b": entry(coupling.coordinate),
-        "ratio": significant(term.ratio),
-    }
+    """``q_b = ratio * q_a + offset``, or with several terms ``q_b = sum of ratio * q + offset``."""
+    found: dict[str, Any] = {"id": coupling.id, "kind": coupling.kind}
+    driven = entry(coupling.coordinate)
+    if len(coupling.terms) == 1:
+        (term,) = coupling.terms
+        found |= {"a": entry(term.coordinate), "b": driven, "ratio": significant(term.ratio)}
+    else:
+        found |= {"b": driven, "terms": [entry(term) for term in coupling.terms]}
     return found | ({"offset": offset} if (offset := plain_value(coupling.offset)) != 0 else {})
 
 

@@ -6,12 +6,15 @@ motions are all free, so what it counts stays the led body's motion.
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import replace
 
 from ..model import free_id
 from .scene import ArticulationBody, Coupling, FixedJoint, GameObject, Joint, JointCoordinate, Rigidbody, UnityScene
 from .scene.vectors import ONE
-from .sums import light_body
+
+SHARE = 0.1
+"""Mass and inertia of a light body against those of the body whose motion it counts."""
 
 
 def with_led_joints_on_light_bodies(scene: UnityScene) -> UnityScene:
@@ -64,3 +67,10 @@ def _holds_nothing(objects: list[GameObject], at: JointCoordinate) -> bool:
         if side is not None
         for c in objects[side].components
     )
+
+
+def light_body(components: Sequence[object]) -> Rigidbody:
+    """What neither falls nor weighs much beside the body with these components."""
+    beside = next((c for c in components if isinstance(c, Rigidbody)), Rigidbody())
+    x, y, z = (SHARE * moment for moment in beside.inertiaTensor)
+    return Rigidbody(SHARE * beside.mass, inertiaTensor=(x, y, z), angularDamping=0.0, useGravity=False)

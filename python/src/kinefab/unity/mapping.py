@@ -18,8 +18,8 @@ from .assets.clips import map_clip
 from .assets.meshes import MappedMeshes
 from .assets.surfaces import map_physics_material, map_surface
 from .bodies.colliders import Colliders, chosen_colliders, stated_collider
-from .bodies import scenery
 from .bodies.rigidbodies import Rigidbodies, carried_along, held_below, map_rigidbody, parents_beside, place_rigidbodies
+from .bodies.standing import Standing, find_standing
 from .constraints import map_constraint
 from .joints.couplings import map_coupling, screw_couplings
 from .joints.mapping import UnityJoint, map_joint
@@ -69,8 +69,8 @@ def map_scene(
     builder.add_ground()
     builder.add_objects()
     builder.add_rigidbodies()
+    builder.set_standing()
     builder.add_joints()
-    builder.set_scenery_apart()
     builder.keep_apart()
     physics = scene.physics
     gravity = vector3(frames.direction(physics.gravity))
@@ -113,6 +113,7 @@ class _Builder:
     rigidbodies: Rigidbodies | None = None
     parents: list[int | None] = field(default_factory=list[int | None])
     ground: int | None = None
+    standing: Standing = Standing((), {})
 
     def finished(self) -> list[GameObject]:
         return [
@@ -239,13 +240,11 @@ class _Builder:
             if self.parents[held] == self.scene.nodes[held].parent:  # a clip moves it
                 self.components[self.object_of[held]].append(Rigidbody(useGravity=False, isKinematic=True))
 
-    def set_scenery_apart(self) -> None:
-        """Kinematic Rigidbodies of its own to what stands on the ground and is no one's base: what is joined to the ground collides
-        with it, and it moves with the root as the ground does.  Where nothing is joined to the ground, all of it may stay one."""
-        connected = [c.connectedBody for own in self.components for c in own if isinstance(c, JointComponent)]
-        if self.ground is None or self.ground not in connected:
+    def set_standing(self) -> None:
+        """Kinematic Rigidbodies of their own to bases and scenery that the ground's does not hold; they move with the root as that one does."""
+        if self.ground is None:
             return
-        node_of: dict[int, int] = {index: node for node, index in enumerate(self.object_of)}
+        node_of = {index: node for node, index in enumerate(self.object_of)}
         touched: set[int] = set()
         for index, components in enumerate(self.components):
             if any(isinstance(c, UnityCollider) for c in components):
@@ -254,9 +253,10 @@ class _Builder:
                     at = self.objects[at].parent
                 if at is not None:
                     touched.add(node_of[at])
-        for top in scenery.tops(self.scene, self.groups, touched):
-            own = self.components[self.object_of[top]]
-            if not any(isinstance(c, Rigidbody) for c in own):
+        self.standing = find_standing(self.scene, self.groups, touched)
+        for holder in dict.fromkeys(self.standing.holder):
+            own = None if holder is None else self.components[self.object_of[holder]]
+            if own is not None and not any(isinstance(c, Rigidbody) for c in own):
                 own.append(Rigidbody(useGravity=False, isKinematic=True))
 
     def add_joints(self) -> None:
@@ -264,7 +264,7 @@ class _Builder:
             driven = with_passive_drives(joint, self.report)
             finding = self.findings.get(joint.id)
             mapped = map_joint(
-                driven, self.scene, self.groups, self._carrier, self.report, finding, self._led
+                driven, self.scene, self.groups, self._carrier, self.report, finding, self._led, self._base
             )
             if mapped is None:
                 continue
@@ -286,6 +286,20 @@ class _Builder:
             if isinstance(c, JointComponent) and not c.enableCollision
         }
         taken = set(self.joints)
+
+        def keep(own: int, other: int, reason: str) -> None:
+            if frozenset((own, other)) in joined:
+                return
+            joined.add(frozenset((own, other)))
+            id = free_id(f"apart:{self.objects[own].id} - {self.objects[other].id}", taken)
+            self.components[own].append(
+                ConfigurableJoint(
+                    connectedBody=other, autoConfigureConnectedAnchor=False, closure=True, id=id, extras={APART: reason}
+                )
+            )
+
+        for own, other in self._beside_bases():
+            keep(own, other, "part of the base of a joint")
         for pair in self.scene.apart:
             a, b = (bodies[self.object_of[node]] for node in (pair.a, pair.b))
             ids = (self.scene.nodes[pair.a].id, self.scene.nodes[pair.b].id)
@@ -299,14 +313,22 @@ class _Builder:
                 if pair.stated:  # what touches of the others is found where they stand
                     self.report.dropped(feature, "PAIR_DROPPED", pair.where, a=ids[0], b=ids[1])
                 continue
-            if frozenset((a, b)) not in joined:
-                id = free_id(f"apart:{ids[0]} - {ids[1]}", taken)
-                joint = ConfigurableJoint(
-                    connectedBody=other, autoConfigureConnectedAnchor=False, closure=True, id=id, extras={APART: pair.reason}
-                )
-                self.components[own].append(joint)
-                joined.add(frozenset((a, b)))
+            keep(own, other, pair.reason)
             self._tell_apart(pair, feature)
+
+    def _beside_bases(self) -> list[tuple[int, int]]:
+        """What moves, with each body of the base that a joint has it on, also where no component stands for that joint."""
+        found: list[tuple[int, int]] = []
+        for joint in self.scene.joints if self.ground is not None else ():
+            for node, base in ((joint.a, joint.b), (joint.b, joint.a)):
+                if node is None or base not in self.standing.bases or self.groups.is_ground(node) or joint.collide:
+                    continue
+                if self.groups.group_of[node] is not None:
+                    own = self.object_of[self._carrier(node)]
+                    holders = self.standing.bases[base]
+                    others = [self.ground if holder is None else self.object_of[holder] for holder in holders]
+                    found += [(own, other) for other in others if self._moves(own)]
+        return found
 
     def _tell_apart(self, pair: Apart, feature: str) -> None:
         if pair.stated:
@@ -341,6 +363,9 @@ class _Builder:
         carrier = self.rigidbodies.carrier_of[node]
         assert carrier is not None, "map_joint asks for bodies only"
         return carrier
+
+    def _base(self, node: int) -> int | None:
+        return self.standing.holder[node] if self.standing.holder else None
 
     def _led(self, carrier: int) -> bool:
         """Whether scripts alone move the Rigidbody of a node that has one."""

@@ -37,18 +37,19 @@ def with_welded_apart(scene: UnityScene) -> UnityScene:
             continue
         held.add(frozenset((a, b)))
         own, other = max(a, b), min(a, b)
-        added.setdefault(own, []).append(_apart(scene, own, other))
+        added.setdefault(own, []).append(apart_joint(scene, own, other, "held together by FixedJoints"))
     return _with(scene, added)
 
 
-def _apart(scene: UnityScene, own: int, other: int) -> ConfigurableJoint:
+def apart_joint(scene: UnityScene, own: int, other: int, reason: str) -> ConfigurableJoint:
+    """A joint that holds nothing and keeps two bodies, by their objects, from colliding."""
     id = f"apart:{scene.gameObjects[own].id} - {scene.gameObjects[other].id}"
     return ConfigurableJoint(
         connectedBody=other,
         autoConfigureConnectedAnchor=False,
         closure=True,
         id=id,
-        extras={APART: "held together by FixedJoints"},
+        extras={APART: reason},
     )
 
 

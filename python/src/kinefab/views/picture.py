@@ -15,6 +15,7 @@ import numpy as np
 
 from ..diagnostics import printable
 from ..spatial import Array, Pose, frame_from_axes, rotation_about
+from ..unity.back.terms import terms_of
 from .bars import Bar, bars
 from .camera import View, looking
 from .freedoms import (
@@ -198,16 +199,18 @@ def _edges(triangles: Array, view: View) -> str:
 
 
 def tied(document: Mapping[str, Any], placements: Sequence[Placement]) -> list[Array]:
-    """Of each coupling the places of its two joints in the world, shape (2, 3)."""
+    """Of each joint that a coupling follows its place and that of the joint that follows, in the world, shape (2, 3)."""
     objects = document["gameObjects"]
-    found: list[Array] = []
-    for coupling in document.get("couplings", ()):
-        ends: list[Array] = []
-        for end in (coupling["a"], coupling["b"]):
-            anchor = objects[end["gameObject"]]["components"][end["component"]].get("anchor", (0, 0, 0))
-            ends.append(world_points(anchor, placements[int(end["gameObject"])]))
-        found.append(np.array(ends))
-    return found
+
+    def place(end: Mapping[str, Any]) -> Array:
+        anchor = objects[end["gameObject"]]["components"][end["component"]].get("anchor", (0, 0, 0))
+        return world_points(anchor, placements[int(end["gameObject"])])
+
+    return [
+        np.array([place(end), place(coupling["b"])])
+        for coupling in document.get("couplings", ())
+        for end, _ in terms_of(coupling)
+    ]
 
 
 def _bar(bar: Bar, placements: Sequence[Placement], view: View) -> str:

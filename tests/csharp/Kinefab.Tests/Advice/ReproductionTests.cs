@@ -135,7 +135,7 @@ public sealed class ReproductionTests
             exact.Step(advice.Step);
             Vector3d apart = unity.Bodies[body].CenterOfMass - exact.Bodies[body].CenterOfMass;
             Quaterniond turn = unity.Bodies[body].Pose.Rotation.Conjugate() * exact.Bodies[body].Pose.Rotation;
-            double angle = 2 * Math.Atan2(turn.Vector.Length, Math.Abs(turn.W)) * Degrees;
+            double angle = 2 * Trigonometry.Atan2(turn.Vector.Length, Math.Abs(turn.W)) * Degrees;
             worst = (Math.Max(worst.Distance, apart.Length), Math.Max(worst.Angle, angle));
         });
         return worst;

@@ -249,7 +249,25 @@ public sealed class WorldCreationTests
         Diagnostic found = world.Findings.Diagnostics.Single(d => d.Code == DiagnosticCodes.StepUnsolved);
         Assert.That((found.Severity, found.Pointer.StartsWith("/gameObjects/0/components/", StringComparison.Ordinal)), Is.EqualTo((Severity.Warning, true)));
         Assert.That(found.Message, Does.Contain("own").And.Contain("from 0 s"));
+        Assert.That(found.Remedy, Is.EqualTo("Close the joint in the pose that the step began from. Else take a shorter step."), "there are no limits and no drives");
         Assert.That(world.Stops, Is.Positive);
+    }
+
+    [Test]
+    public void Speeds_ThatTheJointsForbid_AreTakenOffAtOnceAndTold()
+    {
+        World world = SmallScene.Create(Locked(), solver: SolverKind.Exact);
+        world.Bodies[0].LinearVelocity = new Vector3d(1, 2, 3);
+        world.Bodies[0].AngularVelocity = new Vector3d(0.1, -0.2, 0.3);
+        for (int i = 0; i < 5; i++)
+        {
+            world.Step(0.02);
+        }
+
+        Diagnostic found = world.Findings.Diagnostics.Single();
+        Assert.That((found.Code, found.Severity, found.Pointer), Is.EqualTo((DiagnosticCodes.StartSpeedForbidden, Severity.Warning, "/gameObjects/0/components/1")));
+        Assert.That(world.Stops, Is.Zero);
+        Assert.That(world.Bodies[0].LinearVelocity.Length, Is.LessThan(1e-9));
     }
 
     [Test]

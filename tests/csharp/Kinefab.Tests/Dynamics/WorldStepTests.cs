@@ -3,6 +3,7 @@ using System.Collections.Generic;
 using Kinefab.Document;
 using Kinefab.Dynamics;
 using Kinefab.Numerics;
+using Kinefab.Validation;
 using NUnit.Framework;
 
 namespace Kinefab.Tests.Dynamics;
@@ -264,10 +265,40 @@ public sealed class WorldStepTests
         Assert.That(world.Bodies[1].Pose.Position.X, Is.EqualTo(ratio * world.Joints[0].Coordinate(Coordinate.Angle)).Within(1e-5));
     }
 
-    [Test]
-    public void Step_AfterWarmUp_AllocatesNothing()
+    /// <summary>A differential: the third wheel turns by the mean of two that motors drive, less an offset.</summary>
+    [TestCase(SolverKind.Unity)]
+    [TestCase(SolverKind.Exact)]
+    public void Coupling_OfTwoTerms_FollowsTheirSum(SolverKind solver)
     {
-        World world = Geared(CouplingKind.Gear, -2, 0);
+        World world = World.Create(Differential(), solver);
+        SmallScene.Run(world, 2);
+
+        double first = world.Joints[0].Coordinate(Coordinate.Angle);
+        double second = world.Joints[1].Coordinate(Coordinate.Angle);
+        Assert.That(first, Is.EqualTo(200).Within(2), "the motor turns it, from where the wheels close the offset");
+        Assert.That(second, Is.EqualTo(-60).Within(2), "the motor turns it, from where the wheels close the offset");
+        Assert.That(world.Joints[2].Coordinate(Coordinate.Angle), Is.EqualTo((first + second) / 2 - 5).Within(1e-4));
+    }
+
+    [TestCase(SolverKind.Unity)]
+    [TestCase(SolverKind.Exact)]
+    public void Restore_InACouplingOfTwoTerms_GoesOnWithTheSameBits(SolverKind solver)
+    {
+        World world = World.Create(Differential(), solver);
+        SmallScene.Run(world, 3);
+        WorldSnapshot saved = world.Snapshot();
+        SmallScene.Run(world, 3);
+        ulong reached = world.StateHash();
+        world.Restore(saved);
+        SmallScene.Run(world, 3);
+        Assert.That(world.StateHash(), Is.EqualTo(reached));
+    }
+
+    [TestCase(false)]
+    [TestCase(true)]
+    public void Step_AfterWarmUp_AllocatesNothing(bool isSum)
+    {
+        World world = isSum ? World.Create(Differential()) : Geared(CouplingKind.Gear, -2, 0);
         SmallScene.Run(world, 0.5);
 
         long before = GC.GetAllocatedBytesForCurrentThread();
@@ -305,25 +336,40 @@ public sealed class WorldStepTests
     };
 
     /// <summary>Two wheels on the world, the first driven at 100 degrees/s, coupled.</summary>
-    private static World Geared(CouplingKind kind, double ratio, double offset)
+    private static World Geared(CouplingKind kind, double ratio, double offset) => World.Create(SmallScene.Validate(new SceneDocument
     {
-        GameObject Wheel(string id, double x, bool driven) => new()
-        {
-            Id = id,
-            Name = id,
-            Transform = new Transform { LocalPosition = new Vector3d(x, 0, 0), LocalRotation = Quaterniond.AxisAngle(Vector3d.UnitY, 0.3 * x) },
-            Components =
-            [
-                new Rigidbody { MaxAngularVelocity = 100, InertiaTensor = new Vector3d(0.2, 0.2, 0.3) },
-                new HingeJoint { Axis = Vector3d.UnitZ, UseMotor = driven, Motor = new JointMotor { TargetVelocity = 100, Force = 1e4 } },
-            ],
-        };
-        JointCoordinate Angle(int gameObject) => new() { GameObject = gameObject, Component = 1, Coordinate = Coordinate.Angle };
-        return World.Create(SmallScene.Validate(new SceneDocument
-        {
-            Physics = NoGravity,
-            GameObjects = [Wheel("a", 0, true), Wheel("b", 1, false)],
-            Couplings = [new Coupling { Kind = kind, A = Angle(0), B = Angle(1), Ratio = ratio, Offset = offset }],
-        }));
-    }
+        Physics = NoGravity,
+        GameObjects = [Wheel("a", 0, 100), Wheel("b", 1, null)],
+        Couplings = [new Coupling { Kind = kind, A = Angle(0), B = Angle(1), Ratio = ratio, Offset = offset }],
+    }));
+
+    private static ValidScene Differential() => SmallScene.Validate(new SceneDocument
+    {
+        Physics = NoGravity,
+        GameObjects = [Wheel("a", 0, 100), Wheel("b", 1, -30), Wheel("c", 2, null)],
+        Couplings =
+        [
+            new Coupling
+            {
+                B = Angle(2),
+                Terms = [new CouplingTerm { Coordinate = Angle(0), Ratio = 0.5 }, new CouplingTerm { Coordinate = Angle(1), Ratio = 0.5 }],
+                Offset = -5,
+            },
+        ],
+    });
+
+    private static JointCoordinate Angle(int gameObject) => new() { GameObject = gameObject, Component = 1, Coordinate = Coordinate.Angle };
+
+    // driven: by a motor at so many degrees/s.
+    private static GameObject Wheel(string id, double x, double? driven) => new()
+    {
+        Id = id,
+        Name = id,
+        Transform = new Transform { LocalPosition = new Vector3d(x, 0, 0), LocalRotation = Quaterniond.AxisAngle(Vector3d.UnitY, 0.3 * x) },
+        Components =
+        [
+            new Rigidbody { MaxAngularVelocity = 100, InertiaTensor = new Vector3d(0.2, 0.2, 0.3) },
+            new HingeJoint { Axis = Vector3d.UnitZ, UseMotor = driven is not null, Motor = new JointMotor { TargetVelocity = driven ?? 0, Force = 1e4 } },
+        ],
+    };
 }

@@ -51,6 +51,29 @@ public class CouplingTests
         Assert.That(Driven(scene, first, angle, counterweight, Coordinate.X), Is.EqualTo(-0.075 * angle * Math.PI / 180).Within(Tolerance));
     }
 
+    // A slide follows the turns of two wheels and the travel of another slide.
+    [TestCase(3600, -0.25)]
+    [TestCase(-700.5, 0.5)]
+    public void SumOfThree_AllDriven_IsFollowed(double angle, double travel)
+    {
+        var scene = new MechanismScene();
+        JointPlace first = scene.Hinge(scene.Body("first", Vector3d.Zero), null, Vector3d.Zero, Vector3d.UnitZ);
+        JointPlace second = scene.Hinge(scene.Body("second", Vector3d.UnitX), null, Vector3d.UnitX, new Vector3d(1, -2, 3));
+        JointPlace slide = scene.Slide(scene.Body("slide", Vector3d.UnitY), null, Vector3d.UnitY, Vector3d.UnitX);
+        JointPlace sum = scene.Slide(scene.Body("sum", 2 * Vector3d.UnitY), null, 2 * Vector3d.UnitY, new Vector3d(1, 2, 3));
+        scene.Couple(sum, Coordinate.X, 0.125, (first, Coordinate.Angle, 0.001), (second, Coordinate.Angle, -0.002), (slide, Coordinate.X, 0.5));
+        Mechanism mechanism = scene.Mechanism();
+        var solver = new PositionSolver(mechanism);
+        MechanismState state = mechanism.NewState();
+        solver.Drive(state, first.Angle(mechanism), angle);
+        Assert.That(solver.Drive(state, slide.In(mechanism, Coordinate.X), travel).Converged);
+
+        Assert.That(MobilityAnalysis.Of(mechanism).Mobility, Is.EqualTo(3));
+        Assert.That(state.Coordinate(slide.In(mechanism, Coordinate.X)), Is.EqualTo(travel).Within(Tolerance));
+        double expected = 0.001 * state.Coordinate(first.Angle(mechanism)) - 0.002 * state.Coordinate(second.Angle(mechanism)) + 0.5 * travel + 0.125;
+        Assert.That(state.Coordinate(sum.In(mechanism, Coordinate.X)), Is.EqualTo(expected).Within(Tolerance));
+    }
+
     [Test]
     public void ScrewJack_ScrewDrivenTwoTurns_LowersTheNutByTwoLeads()
     {

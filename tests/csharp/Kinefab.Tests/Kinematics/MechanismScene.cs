@@ -77,13 +77,18 @@ internal sealed class MechanismScene
     public JointPlace Fixed(int own, int? connected) => Add(own, new FixedJoint { ConnectedBody = connected });
 
     public void Couple(JointPlace a, Coordinate coordinateA, JointPlace b, Coordinate coordinateB, double ratio, double offset = 0) =>
+        _couplings.Add(new Coupling { A = At(a, coordinateA), B = At(b, coordinateB), Ratio = ratio, Offset = offset });
+
+    public void Couple(JointPlace driven, Coordinate coordinate, double offset, params (JointPlace Joint, Coordinate Coordinate, double Ratio)[] terms) =>
         _couplings.Add(new Coupling
         {
-            A = new JointCoordinate { GameObject = a.GameObject, Component = a.Component, Coordinate = coordinateA },
-            B = new JointCoordinate { GameObject = b.GameObject, Component = b.Component, Coordinate = coordinateB },
-            Ratio = ratio,
+            B = At(driven, coordinate),
+            Terms = Array.ConvertAll(terms, term => new CouplingTerm { Coordinate = At(term.Joint, term.Coordinate), Ratio = term.Ratio }),
             Offset = offset,
         });
+
+    private static JointCoordinate At(JointPlace joint, Coordinate coordinate) =>
+        new() { GameObject = joint.GameObject, Component = joint.Component, Coordinate = coordinate };
 
     public SceneDocument Document()
     {

@@ -2,6 +2,7 @@ using System;
 using System.IO;
 using System.IO.Compression;
 using System.Linq;
+using System.Reflection.PortableExecutable;
 using NUnit.Framework;
 
 namespace Kinefab.Tests.Packaging;
@@ -37,5 +38,31 @@ public sealed class LeverTestsTests
         Assert.That(Directory.GetFiles(feed.Folder, "*.snupkg"), Has.Length.EqualTo(package == "Kinefab.Cli" ? 0 : 1));
         using var readme = new StreamReader(archive.GetEntry("README.md")!.Open());
         Assert.That(readme.ReadLine(), Is.EqualTo(package == "Kinefab.Cli" ? "# dotnet kinefab" : $"# {package}"), "each has a page of its own");
+    }
+
+    [Test]
+    public void Tool_PackedForThisPlatform_IsMachineCodeAndRuns()
+    {
+        using var feed = new PackageFeed();
+        (int exit, string output) = PackageFeed.Run("dotnet", PackageFeed.Source("src/Kinefab.Cli"), ["pack", "-c", "Release", "-o", feed.Folder, .. feed.BuildApart]);
+        if (exit != 0 && PackageFeed.IsNotToBeHad(output))
+            Assert.Ignore("the compiler of ReadyToRun code is not to be had");
+        Assert.That(exit, Is.Zero, output);
+        string platform = Directory.GetFiles(feed.Folder).Select(Path.GetFileName).Single(name => name is not ("Kinefab.Cli.0.1.0.nupkg" or "Kinefab.Cli.any.0.1.0.nupkg"))!;
+        using ZipArchive archive = ZipFile.OpenRead(Path.Combine(feed.Folder, platform));
+        foreach (string dll in new[] { "Kinefab.dll", "dotnet-kinefab.dll" })
+        {
+            using var bytes = new MemoryStream();
+            using (Stream entry = archive.Entries.Single(e => e.Name == dll).Open())
+                entry.CopyTo(bytes);
+            bytes.Position = 0;
+            using var portable = new PEReader(bytes);
+            Assert.That(portable.PEHeaders.CorHeader!.ManagedNativeHeaderDirectory.Size, Is.Positive, $"{dll} has code for its platform");
+        }
+
+        PackageFeed.Succeed(feed.Project, "tool", "install", "Kinefab.Cli", "--tool-path", "tools", "--add-source", feed.Folder, "--version", "0.1.0");
+        Assert.That(
+            PackageFeed.Run(Path.Combine(feed.Project, "tools", "dotnet-kinefab"), feed.Project, "validate", Path.Combine(PackageFeed.Source("examples/LeverTests"), "lever.kinefab")).Exit,
+            Is.Zero);
     }
 }

@@ -1,6 +1,7 @@
 using System;
 using System.Diagnostics;
 using System.IO;
+using System.Linq;
 using System.Runtime.CompilerServices;
 using System.Threading.Tasks;
 using NUnit.Framework;
@@ -10,6 +11,8 @@ namespace Kinefab.Tests.Packaging;
 /// <summary>A folder with this project's packages as a feed, and a project's folder beside it; removed when done with.</summary>
 internal sealed class PackageFeed : IDisposable
 {
+    private static readonly string[] NotToBeHad = ["NU1101", "NU1102", "NU1301", "Platform linker not found"];
+
     private readonly string _root = Directory.CreateTempSubdirectory("kinefab-packages-").FullName;
 
     /// <summary>Packs what was built for the tests.</summary>
@@ -17,11 +20,14 @@ internal sealed class PackageFeed : IDisposable
     {
         Project = Directory.CreateDirectory(Path.Combine(_root, "project")).FullName;
         foreach (string package in packages)
-            Succeed(Source($"src/{package}"), "pack", "--no-build", "-c", Configuration, "-o", Folder);
+            Succeed(Source($"src/{package}"), "pack", "--no-build", "-p:ToolPlatforms=none", "-c", Configuration, "-o", Folder);
     }
 
     /// <summary>The packages.</summary>
     public string Folder => Path.Combine(_root, "feed");
+
+    /// <summary>Where a package is built that is not what was built for the tests.</summary>
+    public string[] BuildApart => ["-p:UseArtifactsOutput=true", $"-p:ArtifactsPath={Path.Combine(_root, "build")}"];
 
     /// <summary>An empty folder for somebody's project, with nothing of the checkout above it.</summary>
     public string Project { get; }
@@ -46,6 +52,10 @@ internal sealed class PackageFeed : IDisposable
     /// <summary>A folder of csharp/ in the checkout.</summary>
     public static string Source(string folder, [CallerFilePath] string here = "") =>
         Path.GetFullPath(Path.Combine(Path.GetDirectoryName(here)!, "..", "..", "..", "..", "csharp", folder));
+
+    /// <summary>Whether a build failed since a compiler, a runtime or a linker of this platform is not there.</summary>
+    public static bool IsNotToBeHad(string output) =>
+        NotToBeHad.Any(reason => output.Contains(reason, StringComparison.Ordinal));
 
     /// <summary>What a program prints that has to end well.</summary>
     public static string Succeed(string folder, params string[] arguments)

@@ -20,7 +20,15 @@ internal static class MeshComparison
         Assert.That(to.vertices.SelectMany(v => new[] { v.x, v.y, v.z }), Is.EqualTo(Channel(from, data, 0, count)), at);
         if (Channel(from, data, 1, count) is { Length: > 0 } normals)
             Assert.That(to.normals.SelectMany(v => new[] { v.x, v.y, v.z }), Is.EqualTo(normals), at);
-        Assert.That(to.uv.SelectMany(v => new[] { v.x, v.y }), Is.EqualTo(Channel(from, data, 4, count)), at);
+        Assert.That(to.tangents.SelectMany(v => new[] { v.x, v.y, v.z, v.w }), Is.EqualTo(Channel(from, data, 2, count)), at);
+        Assert.That(to.colors.SelectMany(v => new[] { v.r, v.g, v.b, v.a }), Is.EqualTo(Channel(from, data, 3, count)), at);
+        for (int set = 0; set < 8; set++)
+        {
+            List<Unity.Vector2> uv = [];
+            to.GetUVs(set, uv);
+            Assert.That(uv.SelectMany(v => new[] { v.x, v.y }), Is.EqualTo(Channel(from, data, 4 + set, count)), at);
+        }
+
         byte[] indices = Convert.FromHexString(from["m_IndexBuffer"]);
         int width = from["m_IndexFormat"] == "0" ? 2 : 4;
         int[] all = [.. Enumerable.Range(0, indices.Length / width).Select(i => width == 2 ? BitConverter.ToUInt16(indices, 2 * i) : BitConverter.ToInt32(indices, 4 * i))];
@@ -47,21 +55,15 @@ internal static class MeshComparison
     private static int Int(PrefabFile.Record from, string field) => int.Parse(from[field], CultureInfo.InvariantCulture);
 }
 
-/// <summary>A material of the package against one of Unity's files: what the file states of colour and surface.</summary>
-internal static class MaterialComparison
+/// <summary>A physics material of the package against one of Unity's files.</summary>
+internal static class PhysicsMaterialComparison
 {
-    public static void Same(string path, Unity.Material to, string at)
+    public static void Same(string path, Unity.PhysicsMaterial to, string at)
     {
-        PrefabFile.Record from = PrefabFile.Read(path).Documents.Values.First(d => d.Class == "Material");
-        at = $"{at} {System.IO.Path.GetFileName(path)}";
-        Dictionary<string, double> values = from.Fields.Where(f => f.Key.StartsWith("m_SavedProperties.m_", StringComparison.Ordinal) && f.Value.Length > 0)
-            .GroupBy(f => f.Key.Split('.', 4)[^1]).ToDictionary(g => g.Key, g => double.TryParse(g.First().Value, CultureInfo.InvariantCulture, out double n) ? n : double.NaN);
-        Unity.Color color = to.GetColor("_Color");
-        Assert.That(new[] { color.r, color.g, color.b, color.a }, Is.EqualTo("rgba".Select(c => values[$"_Color.{c}"])).Within(1e-6), at);
-        foreach (string property in new[] { "_Metallic", "_Glossiness" })
-            Assert.That(to.GetFloat(property), Is.EqualTo(values[property]).Within(1e-6), $"{at} {property}");
-        if (color.a >= 1)
-            Assert.That(to.renderQueue, Is.EqualTo(int.Parse(from["m_CustomRenderQueue"], CultureInfo.InvariantCulture)), at);
+        PrefabFile.Record from = PrefabFile.Read(path).Documents.Values.Single();
+        double[] expected = [.. new[] { "dynamicFriction", "staticFriction", "bounciness", "frictionCombine", "bounceCombine" }
+            .Select(f => double.Parse(from.Fields.GetValueOrDefault(f) ?? from[$"m_{char.ToUpperInvariant(f[0])}{f[1..]}"], CultureInfo.InvariantCulture))];
+        Assert.That(new double[] { to.dynamicFriction, to.staticFriction, to.bounciness, (int)to.frictionCombine, (int)to.bounceCombine }, Is.EqualTo(expected).Within(1e-6), at);
     }
 }
 

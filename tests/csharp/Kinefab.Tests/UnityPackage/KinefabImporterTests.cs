@@ -217,30 +217,18 @@ public sealed class KinefabImporterTests
         }
     }
 
-    private sealed class UniversalRenderPipelineAsset : Unity.Rendering.RenderPipelineAsset
-    {
-        public override Unity.Material defaultMaterial { get; } = new(Unity.Shader.Of("Universal Render Pipeline/Lit", "_BaseColor", "_Metallic", "_Smoothness", "_Surface"));
-    }
-
     [Test]
     public void Import_InAnotherPipeline_HasItsMaterialsAndComesAgainWhenItChanges()
     {
         using var scene = new EditedScene();
         typeof(PipelineDependency).GetMethod("Register", System.Reflection.BindingFlags.Static | System.Reflection.BindingFlags.NonPublic)!.Invoke(null, null);
         Unity.Hash128 before = AssetDatabase.Dependencies[PipelineDependency.Name];
-        Unity.Rendering.RenderPipelineManager.Change(new UniversalRenderPipelineAsset());
-        try
-        {
-            ImportedAsset asset = ImportedAsset.Of(scene.Scene);
-            Unity.Material[] materials = [.. asset.Context.Objects.Values.OfType<Unity.Material>()];
-            Assert.That(materials.Select(m => m.shader.name), Is.All.EqualTo("Universal Render Pipeline/Lit"));
-            Assert.That(asset.Context.Custom, Does.Contain(PipelineDependency.Name));
-            Assert.That(AssetDatabase.Dependencies[PipelineDependency.Name], Is.Not.EqualTo(before));
-        }
-        finally
-        {
-            Unity.Rendering.RenderPipelineManager.Change(null!);
-        }
+        using RenderPipelines urp = RenderPipelines.Use("urp");
+        ImportedAsset asset = ImportedAsset.Of(scene.Scene);
+        Unity.Material[] materials = [.. asset.Context.Objects.Values.OfType<Unity.Material>()];
+        Assert.That(materials.Select(m => m.shader.name), Is.All.EqualTo("Universal Render Pipeline/Lit"));
+        Assert.That(asset.Context.Custom, Does.Contain(PipelineDependency.Name));
+        Assert.That(AssetDatabase.Dependencies[PipelineDependency.Name], Is.Not.EqualTo(before));
     }
 
     [Test]

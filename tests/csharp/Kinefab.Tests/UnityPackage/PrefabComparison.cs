@@ -132,7 +132,7 @@ internal sealed class PrefabComparison
                 return;
             case "m_Materials":
                 if (parts.Length == 3 && parts[2] == "guid")
-                    MaterialComparison.Same(assets[value], ((Unity.Renderer)to).sharedMaterials[int.Parse(parts[1], CultureInfo.InvariantCulture)], at);
+                    Compared += MaterialComparison.Same(assets[value], assets, ((Unity.Renderer)to).sharedMaterials[int.Parse(parts[1], CultureInfo.InvariantCulture)], at);
                 return;
             case "m_Animation":
                 if (parts[1] == "guid")
@@ -143,7 +143,10 @@ internal sealed class PrefabComparison
                     ClipComparison.Same(assets[value], ((Unity.Animation)to).Clips[int.Parse(parts[1], CultureInfo.InvariantCulture)], at);
                 return;
             case "m_Material":
-                Assert.That(value, Is.EqualTo("0"), at);
+                if (parts[1] == "guid")
+                    PhysicsMaterialComparison.Same(assets[value], ((Unity.Collider)to).sharedMaterial, at);
+                else if (value == "0")
+                    Assert.That(((Unity.Collider)to).sharedMaterial == null!, at);
                 return;
             case "m_XDrive" when record.Class == "ArticulationBody" && parts.Length == 2 && parts[1] == "targetVelocity" && record["m_ArticulationJointType"] == "1":
                 // The prefab is of an editor that runs slides backwards; the stand-ins are of one that does not.

@@ -9,7 +9,9 @@ namespace UnityEngine
         /// <summary>The shaders of the project, by name; a build has only those that it was made with.</summary>
         internal static readonly Dictionary<string, Shader> Known = new Dictionary<string, Shader>
         {
-            ["Standard"] = Of("Standard", "_Color", "_MainTex", "_Metallic", "_Glossiness", "_Mode", "_SrcBlend", "_DstBlend", "_ZWrite", "_Cutoff", "_EmissionColor", "_BumpMap", "_BumpScale"),
+            ["Standard"] = Of(
+                "Standard", "_Color", "_MainTex", "_Cutoff", "_Glossiness", "_GlossMapScale", "_SmoothnessTextureChannel", "_Metallic", "_MetallicGlossMap", "_SpecularHighlights",
+                "_GlossyReflections", "_BumpScale", "_BumpMap", "_OcclusionStrength", "_OcclusionMap", "_EmissionColor", "_EmissionMap", "_UVSec", "_Mode", "_SrcBlend", "_DstBlend", "_ZWrite"),
         };
 
         internal string[] Properties = Array.Empty<string>();
@@ -17,19 +19,6 @@ namespace UnityEngine
         public static Shader Find(string name) => Known.TryGetValue(name, out Shader found) ? found : null;
 
         internal static Shader Of(string name, params string[] properties) => new Shader { name = name, Properties = properties };
-    }
-
-    public class Texture : Object
-    {
-    }
-
-    public sealed class Texture2D : Texture
-    {
-        public Texture2D(int width, int height) => (this.width, this.height) = (width, height);
-
-        public int width { get; }
-
-        public int height { get; }
     }
 
     public sealed class Material : Object
@@ -49,6 +38,8 @@ namespace UnityEngine
 
             _keywords.UnionWith(source._keywords);
             renderQueue = source.renderQueue;
+            doubleSidedGI = source.doubleSidedGI;
+            globalIlluminationFlags = source.globalIlluminationFlags;
         }
 
         public Shader shader { get; set; }
@@ -63,6 +54,8 @@ namespace UnityEngine
         public int renderQueue { get; set; } = -1;
 
         public bool doubleSidedGI { get; set; }
+
+        public MaterialGlobalIlluminationFlags globalIlluminationFlags { get; set; } = MaterialGlobalIlluminationFlags.EmissiveIsBlack;
 
         public bool enableInstancing { get; set; }
 
@@ -91,6 +84,18 @@ namespace UnityEngine
 
         public Texture GetTexture(string name) => _values.TryGetValue(name, out object value) ? (Texture)value : null;
 
+        public void SetTextureScale(string name, Vector2 value) => _values["scale " + name] = value;
+
+        public Vector2 GetTextureScale(string name) => _values.TryGetValue("scale " + name, out object value) ? (Vector2)value : Vector2.one;
+
+        public void SetTextureOffset(string name, Vector2 value) => _values["offset " + name] = value;
+
+        public Vector2 GetTextureOffset(string name) => _values.TryGetValue("offset " + name, out object value) ? (Vector2)value : Vector2.zero;
+
+        public string GetTag(string tag, bool searchFallbacks) => _values.TryGetValue("tag " + tag, out object value) ? (string)value : "";
+
+        public bool GetShaderPassEnabled(string passName) => !_values.TryGetValue("pass " + passName, out object value) || (bool)value;
+
         public void EnableKeyword(string keyword) => _keywords.Add(keyword);
 
         public void DisableKeyword(string keyword) => _keywords.Remove(keyword);
@@ -100,6 +105,18 @@ namespace UnityEngine
         public void SetOverrideTag(string tag, string value) => _values["tag " + tag] = value;
 
         public void SetShaderPassEnabled(string passName, bool enabled) => _values["pass " + passName] = enabled;
+    }
+}
+
+namespace UnityEngine
+{
+    [Flags]
+    public enum MaterialGlobalIlluminationFlags
+    {
+        None = 0,
+        RealtimeEmissive = 1,
+        BakedEmissive = 2,
+        EmissiveIsBlack = 4,
     }
 }
 

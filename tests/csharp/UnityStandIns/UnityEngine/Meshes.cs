@@ -50,9 +50,28 @@ namespace UnityEngine
 
         public Color[] colors { get; set; } = Array.Empty<Color>();
 
-        public Vector2[] uv { get; set; } = Array.Empty<Vector2>();
+        private readonly Vector2[][] _uvs = new Vector2[8][];
 
-        public Vector2[] uv2 { get; set; } = Array.Empty<Vector2>();
+        public Vector2[] uv
+        {
+            get => _uvs[0] ?? Array.Empty<Vector2>();
+            set => SetUVs(0, value);
+        }
+
+        public Vector2[] uv2
+        {
+            get => _uvs[1] ?? Array.Empty<Vector2>();
+            set => SetUVs(1, value);
+        }
+
+        public void SetUVs(int channel, Vector2[] uvs) =>
+            _uvs[channel] = uvs.Length == _vertices.Length ? uvs : throw new ArgumentException("Not as many as vertices.");
+
+        public void GetUVs(int channel, List<Vector2> uvs)
+        {
+            uvs.Clear();
+            uvs.AddRange(_uvs[channel] ?? Array.Empty<Vector2>());
+        }
 
         public Bounds bounds { get; set; }
 

@@ -115,7 +115,11 @@ namespace UnityEngine
 
     public sealed class GameObject : Object
     {
+        /// <summary>The project's.</summary>
+        internal static readonly HashSet<string> Tags = new HashSet<string> { "Untagged", "Respawn", "Finish", "EditorOnly", "MainCamera", "Player", "GameController" };
+
         internal readonly List<Component> Components = new List<Component>();
+        private string _tag = "Untagged";
 
         public GameObject()
             : this("New Game Object")
@@ -132,7 +136,12 @@ namespace UnityEngine
 
         public int layer { get; set; }
 
-        public string tag { get; set; } = "Untagged";
+        /// <summary>Refuses what the project has not, as Unity does.</summary>
+        public string tag
+        {
+            get => _tag;
+            set => _tag = Tags.Contains(value) ? value : throw new UnityException($"Tag: {value} is not defined.");
+        }
 
         public bool isStatic { get; set; }
 
@@ -256,6 +265,22 @@ namespace UnityEngine
         }
 
         private bool Articulated() => Components.Exists(c => c.GetType().Name == "ArticulationBody");
+    }
+
+    public struct LayerMask
+    {
+        /// <summary>The project's; the first eight are Unity's own.</summary>
+        internal static readonly List<string> Layers = new List<string> { "Default", "TransparentFX", "Ignore Raycast", "", "Water", "UI", "", "" };
+
+        public static int NameToLayer(string layerName) => layerName.Length == 0 ? -1 : Layers.IndexOf(layerName);
+    }
+
+    public class UnityException : SystemException
+    {
+        public UnityException(string message)
+            : base(message)
+        {
+        }
     }
 
     public static class Debug

@@ -11,6 +11,8 @@ namespace UnityEngine
 
         public static Vector2 zero => default;
 
+        public static Vector2 one => new Vector2(1, 1);
+
         public static Vector2 operator -(Vector2 a, Vector2 b) => new Vector2(a.x - b.x, a.y - b.y);
 
         public static implicit operator Vector2(Vector3 v) => new Vector2(v.x, v.y);

@@ -53,8 +53,16 @@ internal sealed class RunIsland
             Join(joint, joint);
         foreach (Coupling coupling in couplings)
         {
-            if (joints.TryGetValue((coupling.A.GameObject, coupling.A.Component), out WorldJoint? a) && joints.TryGetValue((coupling.B.GameObject, coupling.B.Component), out WorldJoint? b))
-                Join(a, b);
+            var coupled = new List<WorldJoint>();
+            foreach (JointCoordinate at in coupling.Followed.Select(term => term.Coordinate).Append(coupling.B))
+            {
+                if (joints.TryGetValue((at.GameObject, at.Component), out WorldJoint? joint))
+                    coupled.Add(joint);
+            }
+
+            // One of an inactive object's joint is none.
+            for (int i = 1; coupled.Count > coupling.Followed.Count && i < coupled.Count; i++)
+                Join(coupled[0], coupled[i]);
         }
 
         ILookup<int, int> jointsOf = world.Joints.Where(j => Moving(j).Any()).ToLookup(j => sets.Find(Moving(j).First()), j => j.Index);

@@ -31,6 +31,9 @@ internal sealed class MultibodySystem
     /// <summary>Islands of which the last step found the joints apart and moved the bodies together; written by the exact solver.</summary>
     public readonly List<ClosedPose> Closed = new();
 
+    /// <summary>Islands of which the last step took speeds off that their joints forbid; written by the exact solver.</summary>
+    public readonly List<ForbiddenSpeed> ForbiddenSpeeds = new();
+
     /// <summary>Limits that stood passed in the last step, since no pose satisfies them and the rest of the joints.</summary>
     public readonly List<HeldLimit> HeldLimits = new();
 
@@ -71,8 +74,7 @@ internal sealed class MultibodySystem
 
         foreach (CoordinateCoupling coupling in Couplings)
         {
-            tape.Value(ref coupling.LastA);
-            tape.Value(ref coupling.LastB);
+            tape.Array(coupling.Last);
         }
 
         tape.Array(reactions);
@@ -107,6 +109,25 @@ internal struct UnsolvedStep
     /// <summary>By how much, m or rad; infinite when it was no number.</summary>
     public double Error;
     public bool IsAngular;
+
+    /// <summary>What may be to blame, of the pose where that part began.</summary>
+    public StepTroubles Troubles;
+}
+
+/// <summary>What was the case where a part of a step began that could not be solved.</summary>
+[Flags]
+internal enum StepTroubles : byte
+{
+    None = 0,
+
+    /// <summary>Joints stood open.</summary>
+    Open = 1,
+
+    /// <summary>A hard limit was reached.</summary>
+    Limit = 2,
+
+    /// <summary>A motor or drive without a limit of its force was at work.</summary>
+    EndlessDrive = 4,
 }
 
 /// <summary>An island whose bodies were moved to close its joints.</summary>
@@ -125,6 +146,20 @@ internal struct ClosedPose
     /// <summary>The farthest that a body's centre of mass was moved, m, and a body turned, rad.</summary>
     public double Distance;
     public double Angle;
+}
+
+/// <summary>An island that began with speeds that its joints forbid.</summary>
+internal struct ForbiddenSpeed
+{
+    /// <summary>One of the island's bodies.</summary>
+    public int Body;
+
+    /// <summary>The joint with the largest.</summary>
+    public JointModel? Joint;
+
+    /// <summary>m/s or rad/s.</summary>
+    public double Speed;
+    public bool IsAngular;
 }
 
 /// <summary>A limit that stands passed.</summary>

@@ -5,18 +5,16 @@ using Kinefab.Numerics;
 namespace Kinefab.Dynamics.Pgs;
 
 /// <summary>
-/// The couplings' rows in the sweeps: rigid rows over up to four bodies, solved after all joints. PhysX 4.1 has none;
+/// The couplings' rows in the sweeps: rigid rows over the bodies of their joints, solved after all joints. PhysX 4.1 has none;
 /// they follow its formula for a rigid row.
 /// </summary>
 internal sealed class CouplingRows
 {
-    private const int MaxBodies = 4;
-
     private readonly MultibodySystem _mechanism;
     private readonly Predicate<int> _isElsewhere;
     private readonly Row[] _rows;
 
-    // MaxBodies for each row.
+    // For each row as many as its joints may have bodies.
     private readonly Part[] _parts;
 
     private struct Row
@@ -25,6 +23,7 @@ internal sealed class CouplingRows
         public double UnbiasedConstant;
         public double InverseResponse;
         public double Impulse;
+        public int First;
         public int Parts;
     }
 
@@ -46,7 +45,14 @@ internal sealed class CouplingRows
         _mechanism = mechanism;
         _isElsewhere = isElsewhere;
         _rows = new Row[mechanism.Couplings.Length];
-        _parts = new Part[_rows.Length * MaxBodies];
+        int parts = 0;
+        for (int i = 0; i < _rows.Length; i++)
+        {
+            _rows[i].First = parts;
+            parts += 2 * mechanism.Couplings[i].Coordinates.Length;
+        }
+
+        _parts = new Part[parts];
     }
 
     public void Prepare(SqrtInertia[] sqrtInertia, double dt)
@@ -56,21 +62,22 @@ internal sealed class CouplingRows
         {
             CoordinateCoupling coupling = _mechanism.Couplings[i];
             ref Row row = ref _rows[i];
-            row = default;
-            if (_isElsewhere(i) || coupling.A.Joint.IsBroken || coupling.B.Joint.IsBroken)
+            row = new Row { First = row.First };
+            if (_isElsewhere(i) || !coupling.IsWhole)
             {
                 continue;
             }
 
-            JointModel a = coupling.A.Joint;
-            JointModel b = coupling.B.Joint;
-            double error = coupling.Prepare(
-                bodies.PoseOf(a.Body0), bodies.PoseOf(a.Body1), bodies.PoseOf(b.Body0), bodies.PoseOf(b.Body1), out ConstraintRow rowA, out ConstraintRow rowB);
-            Add(i, a.Body0, rowA.Linear0 * -coupling.Ratio, rowA.Angular0 * -coupling.Ratio);
-            Add(i, a.Body1, rowA.Linear1 * coupling.Ratio, rowA.Angular1 * coupling.Ratio);
-            Add(i, b.Body0, rowB.Linear0, rowB.Angular0);
-            Add(i, b.Body1, -rowB.Linear1, -rowB.Angular1);
-            SetConstants(i, sqrtInertia, error, dt);
+            double sum = 0;
+            for (int c = 0; c < coupling.Coordinates.Length; c++)
+            {
+                JointModel joint = coupling.Coordinates[c].Joint;
+                sum += coupling.Evaluate(c, bodies.PoseOf(joint.Body0), bodies.PoseOf(joint.Body1));
+                Add(i, joint.Body0, coupling.Rows[c].Linear0 * coupling.Factors[c], coupling.Rows[c].Angular0 * coupling.Factors[c]);
+                Add(i, joint.Body1, coupling.Rows[c].Linear1 * -coupling.Factors[c], coupling.Rows[c].Angular1 * -coupling.Factors[c]);
+            }
+
+            SetConstants(i, sqrtInertia, sum - coupling.Offset, dt);
         }
     }
 
@@ -80,7 +87,7 @@ internal sealed class CouplingRows
         {
             ref Row row = ref _rows[i];
             double velocity = 0;
-            for (int p = i * MaxBodies; p < i * MaxBodies + row.Parts; p++)
+            for (int p = row.First; p < row.First + row.Parts; p++)
             {
                 ref Part part = ref _parts[p];
                 velocity += Vector3d.Dot(part.Linear, deltas[part.Body].Linear.Vector) + Vector3d.Dot(part.SqrtAngular, deltas[part.Body].Angular.Vector);
@@ -88,7 +95,7 @@ internal sealed class CouplingRows
 
             double delta = row.Constant - velocity * row.InverseResponse;
             row.Impulse += delta;
-            for (int p = i * MaxBodies; p < i * MaxBodies + row.Parts; p++)
+            for (int p = row.First; p < row.First + row.Parts; p++)
             {
                 ref Part part = ref _parts[p];
                 deltas[part.Body].Linear += new Double4(part.Linear * (delta * part.InverseMass), 0);
@@ -112,8 +119,10 @@ internal sealed class CouplingRows
         Bodies bodies = _mechanism.Bodies;
         foreach (CoordinateCoupling coupling in _mechanism.Couplings)
         {
-            coupling.LastA = Reached(coupling.A, bodies, coupling.LastA, dt);
-            coupling.LastB = Reached(coupling.B, bodies, coupling.LastB, dt);
+            for (int c = 0; c < coupling.Last.Length; c++)
+            {
+                coupling.Last[c] = Reached(coupling.Coordinates[c], bodies, coupling.Last[c], dt);
+            }
         }
     }
 
@@ -141,7 +150,7 @@ internal sealed class CouplingRows
             return;
         }
 
-        int start = row * MaxBodies;
+        int start = _rows[row].First;
         int end = start + _rows[row].Parts;
         int p = start;
         while (p < end && _parts[p].Body != body)
@@ -165,7 +174,7 @@ internal sealed class CouplingRows
         ref Row row = ref _rows[i];
         double response = 0;
         double velocity = 0;
-        for (int p = i * MaxBodies; p < i * MaxBodies + row.Parts; p++)
+        for (int p = row.First; p < row.First + row.Parts; p++)
         {
             ref Part part = ref _parts[p];
             part.InverseMass = bodies.InverseMasses[part.Body];

@@ -21,6 +21,9 @@ internal sealed class LinkRows
     private readonly int[] _couplings;
     private readonly SweepRows _rows;
     private readonly Row[] _made;
+
+    // Those of a row stand together.
+    private readonly Part[] _parts;
     private readonly WorldSide[] _worldSides;
     private readonly ConstraintRow[] _given = new ConstraintRow[JointModel.MaxRows];
     private int _count;
@@ -28,7 +31,7 @@ internal sealed class LinkRows
     private struct Row
     {
         public int Joint;
-        public Part A, B, C, D;
+        public int First;
         public int Parts;
         public bool Counts;
 
@@ -58,10 +61,13 @@ internal sealed class LinkRows
         }
 
         var couplings = new List<int>();
+        int coupled = 0;
         for (int i = 0; i < mechanism.Couplings.Length; i++)
         {
-            if (Touches(mechanism.Couplings[i].A.Joint) || Touches(mechanism.Couplings[i].B.Joint))
-                couplings.Add(i);
+            if (!Array.Exists(mechanism.Couplings[i].Coordinates, coordinate => Touches(coordinate.Joint)))
+                continue;
+            couplings.Add(i);
+            coupled += 2 * mechanism.Couplings[i].Coordinates.Length;
         }
 
         _joints = joints.ToArray();
@@ -69,6 +75,7 @@ internal sealed class LinkRows
         int most = joints.Count + couplings.Count;
         _rows = new SweepRows(most);
         _made = new Row[most * JointModel.MaxRows];
+        _parts = new Part[2 * joints.Count * JointModel.MaxRows + coupled];
         _worldSides = new WorldSide[links.Solvers.Length];
         for (int a = 0; a < _worldSides.Length; a++)
         {
@@ -131,9 +138,9 @@ internal sealed class LinkRows
             if (row.IsInner)
                 continue;
             double speed = 0;
-            for (int p = 0; p < row.Parts; p++)
+            for (int p = row.First; p < row.First + row.Parts; p++)
             {
-                ref Part part = ref At(ref row, p);
+                ref Part part = ref _parts[p];
                 Twist change = _links.IsLink(part.Body)
                     ? _links.Motion(part.Body) - part.Start
                     : new Twist(sqrtInertia[part.Body].Times(deltas[part.Body].Angular.Vector).Vector, deltas[part.Body].Linear.Vector);
@@ -141,9 +148,9 @@ internal sealed class LinkRows
             }
 
             double impulse = Solve(i, speed);
-            for (int p = 0; impulse != 0 && p < row.Parts; p++)
+            for (int p = row.First; impulse != 0 && p < row.First + row.Parts; p++)
             {
-                ref Part part = ref At(ref row, p);
+                ref Part part = ref _parts[p];
                 if (_links.IsLink(part.Body))
                 {
                     _links.Solvers[_links.ArticulationOf[part.Body]].Responses.Apply(_links.LinkOf[part.Body], part.Direction * impulse);
@@ -225,8 +232,7 @@ internal sealed class LinkRows
     private ref Row Begin(int joint)
     {
         ref Row row = ref _made[_count];
-        row = default;
-        row.Joint = joint;
+        row = new Row { Joint = joint, First = _count == 0 ? 0 : _made[_count - 1].First + _made[_count - 1].Parts };
         return ref row;
     }
 
@@ -234,13 +240,16 @@ internal sealed class LinkRows
     {
         if (body < 0 || (!_links.IsLink(body) && !(_mechanism.Bodies.InverseMasses[body] > 0)))
             return;
-        int p = 0;
-        while (p < row.Parts && At(ref row, p).Body != body)
+        int p = row.First;
+        while (p < row.First + row.Parts && _parts[p].Body != body)
             p++;
-        ref Part part = ref At(ref row, p);
-        part.Body = body;
-        part.Direction += new Wrench(linear, angular);
-        row.Parts = Math.Max(row.Parts, p + 1);
+        if (p == row.First + row.Parts)
+        {
+            _parts[p] = new Part { Body = body };
+            row.Parts++;
+        }
+
+        _parts[p].Direction += new Wrench(linear, angular);
     }
 
     // Response and speed at the start; a row that moves nothing is left out.
@@ -250,9 +259,9 @@ internal sealed class LinkRows
         double response = 0;
         double speed = 0;
         double compliance = 0;
-        for (int p = 0; p < row.Parts; p++)
+        for (int p = row.First; p < row.First + row.Parts; p++)
         {
-            ref Part part = ref At(ref row, p);
+            ref Part part = ref _parts[p];
             if (_links.IsLink(part.Body))
             {
                 ArticulationSolver solver = _links.Solvers[_links.ArticulationOf[part.Body]];
@@ -271,17 +280,17 @@ internal sealed class LinkRows
             speed += Wrench.Dot(part.Direction, part.Start);
         }
 
-        for (int p = 0; p < row.Parts; p++)
+        for (int p = row.First; p < row.First + row.Parts; p++)
         {
-            ref Part part = ref At(ref row, p);
+            ref Part part = ref _parts[p];
             response += Wrench.Dot(part.Direction, _links.IsLink(part.Body) ? _links.Solvers[_links.ArticulationOf[part.Body]].Responses.Change(_links.LinkOf[part.Body]) : part.Response);
         }
 
-        bool isInner = row.Parts == 1 && _links.IsLink(row.A.Body);
-        for (int p = 0; p < row.Parts; p++)
+        bool isInner = row.Parts == 1 && _links.IsLink(_parts[row.First].Body);
+        for (int p = row.First; p < row.First + row.Parts; p++)
         {
-            if (_links.IsLink(At(ref row, p).Body))
-                _links.Solvers[_links.ArticulationOf[At(ref row, p).Body]].Responses.Forget();
+            if (_links.IsLink(_parts[p].Body))
+                _links.Solvers[_links.ArticulationOf[_parts[p].Body]].Responses.Forget();
         }
 
         if (!(response > LeastResponse))
@@ -299,23 +308,28 @@ internal sealed class LinkRows
         _rows.Angular0[i] = given.Angular0;
         PgsConstants.Set(_rows, i, response, given, driveScale, dt, inverseDt);
         if (isInner)
-            _worldSides[_links.ArticulationOf[row.A.Body]].Add(_links.LinkOf[row.A.Body], i);
+        {
+            int body = _parts[row.First].Body;
+            _worldSides[_links.ArticulationOf[body]].Add(_links.LinkOf[body], i);
+        }
     }
 
     private void PrepareCoupling(CoordinateCoupling coupling, double dt, double inverseDt)
     {
-        JointModel a = coupling.A.Joint;
-        JointModel b = coupling.B.Joint;
-        if (a.IsBroken || b.IsBroken)
+        if (!coupling.IsWhole)
             return;
         Bodies bodies = _mechanism.Bodies;
-        double error = coupling.Prepare(bodies.PoseOf(a.Body0), bodies.PoseOf(a.Body1), bodies.PoseOf(b.Body0), bodies.PoseOf(b.Body1), out ConstraintRow rowA, out ConstraintRow rowB);
         ref Row row = ref Begin(-1);
-        Add(ref row, a.Body0, rowA.Linear0 * -coupling.Ratio, rowA.Angular0 * -coupling.Ratio);
-        Add(ref row, a.Body1, rowA.Linear1 * coupling.Ratio, rowA.Angular1 * coupling.Ratio);
-        Add(ref row, b.Body0, rowB.Linear0, rowB.Angular0);
-        Add(ref row, b.Body1, -rowB.Linear1, -rowB.Angular1);
-        var given = new ConstraintRow { GeometricError = error, Minimum = double.NegativeInfinity, Maximum = double.PositiveInfinity, Hint = SolveHint.Equality };
+        double sum = 0;
+        for (int i = 0; i < coupling.Coordinates.Length; i++)
+        {
+            JointModel joint = coupling.Coordinates[i].Joint;
+            sum += coupling.Evaluate(i, bodies.PoseOf(joint.Body0), bodies.PoseOf(joint.Body1));
+            Add(ref row, joint.Body0, coupling.Rows[i].Linear0 * coupling.Factors[i], coupling.Rows[i].Angular0 * coupling.Factors[i]);
+            Add(ref row, joint.Body1, coupling.Rows[i].Linear1 * -coupling.Factors[i], coupling.Rows[i].Angular1 * -coupling.Factors[i]);
+        }
+
+        var given = new ConstraintRow { GeometricError = sum - coupling.Offset, Minimum = double.NegativeInfinity, Maximum = double.PositiveInfinity, Hint = SolveHint.Equality };
         End(ref row, given, 1, dt, inverseDt);
     }
 
@@ -327,21 +341,6 @@ internal sealed class LinkRows
         double given = impulse - _rows.Impulses[i];
         _rows.Impulses[i] = impulse;
         return given;
-    }
-
-    private static ref Part At(ref Row row, int part)
-    {
-        switch (part)
-        {
-            case 0:
-                return ref row.A;
-            case 1:
-                return ref row.B;
-            case 2:
-                return ref row.C;
-            default:
-                return ref row.D;
-        }
     }
 
     /// <summary>The rows between one articulation's links and the world.</summary>
@@ -375,7 +374,7 @@ internal sealed class LinkRows
             bool given = false;
             foreach (int i in _rows[link])
             {
-                ref Part part = ref _owner._made[i].A;
+                ref Part part = ref _owner._parts[_owner._made[i].First];
                 Twist moved = _solver.Tree.Motions[link] + change - part.Start;
                 double by = _owner.Solve(i, Wrench.Dot(part.Direction, moved));
                 if (by == 0)

@@ -25,6 +25,11 @@ internal abstract class IslandGroup
             mechanism.Closed.Add(controller.Closed(island));
         }
 
+        if (controller.HasForbiddenSpeed)
+        {
+            mechanism.ForbiddenSpeeds.Add(controller.Forbidden(island));
+        }
+
         if (controller.DampedSteps > stopsBefore)
         {
             mechanism.Stops += controller.DampedSteps - stopsBefore;
@@ -153,6 +158,24 @@ internal sealed class LaneIslandGroup<V> : IslandGroup
             FreeMotion<V>.Stay(batch);
             RattleStep<V>.Rebuild(batch);
             LeaveOpenOnes(batch);
+            LeaveForbiddenSpeeds(batch);
+        }
+    }
+
+    // So are those with speeds that the joints forbid.
+    private void LeaveForbiddenSpeeds(LaneBatch<V> batch)
+    {
+        Impulses<V>.NegativeSpeeds(batch);
+        double[] speeds = batch.Work.Solution;
+        for (int i = 0; i < speeds.Length; i++)
+        {
+            int lane = i % Lane<V>.Width;
+            _isAlone[lane] |= batch.Work.Moved[lane] != 0 && Math.Abs(speeds[i]) > InitialVelocityProjection.MostForbidden;
+        }
+
+        for (int lane = 0; lane < Lane<V>.Width; lane++)
+        {
+            batch.Work.Active[lane] = _isAlone[lane] ? 0 : 1;
         }
     }
 

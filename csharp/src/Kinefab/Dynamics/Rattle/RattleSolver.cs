@@ -67,6 +67,7 @@ internal sealed class RattleSolver : ISolver
 
         _mechanism.Unsolved.Clear();
         _mechanism.Closed.Clear();
+        _mechanism.ForbiddenSpeeds.Clear();
         _mechanism.HeldLimits.Clear();
         double tolerance = Math.Min(MostGap, Math.Max(LeastGap, GapAcceleration * dt * dt));
         foreach (IslandGroup group in _groups)

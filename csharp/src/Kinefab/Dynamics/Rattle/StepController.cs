@@ -17,14 +17,14 @@ internal sealed class StepController
     public const int MaxHalvings = 10;
     private const int MaxDepth = 12;
 
+    // Halvings into even parts where limits and drives act: blows end the long account of energy for which the parts are even.
+    private const int MaxEvenHalvings = 6;
+
     // Failures in a step after which parts that fail are left to implicit Euler.
     private const int MaxFailures = 48;
 
     // Stops in a step after which the rest of it is not tried: the scene cannot be followed, and says so.
     private const int MaxDampedSteps = 8;
-
-    // Largest error of a quaternion's square.
-    private const double MostStretch = 1e-3;
 
     // Largest change of the energy in a step against its kinetic part, where nothing but known forces does work.
     private const double MostEnergyChange = 0.002;
@@ -33,17 +33,18 @@ internal sealed class StepController
     private const double MostEnergyGain = 0.005;
 
     private readonly LaneBatch<ScalarLane> _batch;
-    private readonly ImplicitEulerStep _fallback;
+    private readonly ConjugateGradient _exact;
+    private readonly Substep _part;
     private readonly PositionProjection _closure;
     private readonly Snapshot _start;
-    private readonly Snapshot[] _substepStarts = new Snapshot[MaxDepth - MaxHalvings + 1];
-    private readonly bool[] _converged = new bool[1];
-    private double _substep;
+    private readonly Snapshot[] _substepStarts = new Snapshot[MaxDepth + 1];
     private int _failures;
     private int _dampedInStep;
     private int _worst;
     private double _worstError;
-    private bool _refinesAfterFailure;
+    private int _forbidden = -1;
+    private double _forbiddenSpeed;
+    private StepTroubles _troubles;
     private bool _isAudited;
     private EnergyAudit _energy;
     private double _dt;
@@ -52,8 +53,9 @@ internal sealed class StepController
     public StepController(LaneBatch<ScalarLane> batch)
     {
         _batch = batch;
-        _fallback = new ImplicitEulerStep(batch);
-        _closure = new PositionProjection(batch);
+        _exact = new ConjugateGradient(batch);
+        _part = new Substep(batch, _exact);
+        _closure = new PositionProjection(batch, _exact);
         _start = new Snapshot(batch);
         for (int i = 0; i < _substepStarts.Length; i++)
         {
@@ -69,8 +71,8 @@ internal sealed class StepController
     public UnsolvedStep Unsolved(Island island)
     {
         return _worst < 0
-            ? new UnsolvedStep { Body = island.Bodies[0] }
-            : new UnsolvedStep { Body = island.Bodies[0], Joint = JointOf(island, _worst), Error = _worstError, IsAngular = island.IsAngular[_worst] };
+            ? new UnsolvedStep { Body = island.Bodies[0], Troubles = _troubles }
+            : new UnsolvedStep { Body = island.Bodies[0], Troubles = _troubles, Joint = JointOf(island, _worst), Error = _worstError, IsAngular = island.IsAngular[_worst] };
     }
 
     /// <summary>The joints whose limits stand passed and cannot be closed are added to a list.</summary>
@@ -87,6 +89,14 @@ internal sealed class StepController
 
     /// <summary>Whether the last step began by closing its start pose.</summary>
     public bool HasClosed { get; private set; }
+
+    /// <summary>Whether the last step began by taking speeds off that the joints forbid.</summary>
+    public bool HasForbiddenSpeed => _forbidden >= 0;
+
+    /// <summary>The largest of them.</summary>
+    /// <param name="island">The island that was stepped; the batch may be of another of its shape.</param>
+    public ForbiddenSpeed Forbidden(Island island) =>
+        new() { Body = island.Bodies[0], Joint = JointOf(island, _forbidden), Speed = _forbiddenSpeed, IsAngular = island.IsAngular[_forbidden] };
 
     /// <summary>What was moved then.</summary>
     /// <param name="island">The island that was stepped; the batch may be of another of its shape.</param>
@@ -110,15 +120,16 @@ internal sealed class StepController
     {
         Array.Clear(_batch.Work.TotalImpulses, 0, _batch.Work.TotalImpulses.Length);
         _batch.ActiveSet?.ClearWork();
-        _substep = dt;
+        _part.Begin(dt);
         _tolerance = tolerance;
         _failures = 0;
         _dampedInStep = 0;
-        _refinesAfterFailure = false;
+        _part.IsEager = false;
         _isAudited = EnergyAudit.IsKnown(_batch);
         isMoved |= _batch.ActiveSet != null && _batch.ActiveSet.IsNewlyPassed();
         HasClosed = isMoved && _closure.TryClose(tolerance);
-        bool hasSettled = hasFailed || HasClosed;
+        _forbidden = isMoved && !_batch.Shape.IsInconsistent ? InitialVelocityProjection.Find(_batch, out _forbiddenSpeed) : -1;
+        bool hasSettled = hasFailed || HasClosed || HasForbiddenSpeed;
         if (hasSettled)
         {
             CloseInitialState(isMoved);
@@ -137,19 +148,19 @@ internal sealed class StepController
         while (!TrySubsteps(dt, halvings, tolerance) || !IsEnergyKept(halvings))
         {
             _start.Restore(_batch);
-            _substep = dt;
+            _part.Begin(dt);
             if (!hasSettled)
             {
                 hasSettled = true;
-                _refinesAfterFailure = true;
+                _part.IsEager = true;
                 CloseInitialState(isMoved);
                 _start.Save(_batch);
                 Audit(dt);
             }
 
-            if (halvings == MaxHalvings)
+            if (halvings >= (_batch.ActiveSet == null ? MaxHalvings : MaxEvenHalvings))
             {
-                SubstepUntilSolved(dt, tolerance);
+                SubstepUntilSolved(dt, halvings, tolerance);
                 break;
             }
 
@@ -157,7 +168,7 @@ internal sealed class StepController
         }
 
         cut.Record(halvings, demand);
-        SetSubstep(dt);
+        _part.SetLength(dt);
     }
 
     // Closing what stood open before the step does work on springs.
@@ -165,7 +176,7 @@ internal sealed class StepController
     {
         _isAudited &= !(isMoved && _closure.IsOpen());
         RattleStep<ScalarLane>.Rebuild(_batch);
-        InitialVelocityProjection.Apply(_batch);
+        InitialVelocityProjection.Apply(_batch, _exact);
     }
 
     private void Audit(double dt)
@@ -179,7 +190,7 @@ internal sealed class StepController
     private static JointModel? JointOf(Island island, int row)
     {
         int n = Array.FindLastIndex(island.Pattern.Rows, first => first <= row);
-        return island.Blocks[n].Joint ?? island.Blocks[n].Coupling!.B.Joint;
+        return island.Blocks[n].Joint ?? island.Blocks[n].Coupling!.Coordinates[^1].Joint;
     }
 
     // Of the first part that no method could take.
@@ -199,6 +210,13 @@ internal sealed class StepController
         }
     }
 
+    // Of the pose that is built; its rows have to be built anew after it.
+    private void FindTroubles(double tolerance)
+    {
+        _troubles = _batch.ActiveSet?.Troubles(ActiveSet<ScalarLane>.Reach * tolerance) ?? StepTroubles.None;
+        _troubles |= _closure.IsOpen() ? StepTroubles.Open : StepTroubles.None;
+    }
+
     // At the finest even parts a violent motion without scalar rows may lose energy: nothing below these is better.
     private bool IsEnergyKept(int halvings)
     {
@@ -209,10 +227,10 @@ internal sealed class StepController
     private bool TrySubsteps(double dt, int halvings, double tolerance)
     {
         double h = dt / (1 << halvings);
-        SetSubstep(h);
+        _part.SetLength(h);
         for (int i = 1 << halvings; i > 0; i--)
         {
-            if (!TryRattle(h, tolerance))
+            if (!_part.TryRattle(h, tolerance))
             {
                 return false;
             }
@@ -221,11 +239,11 @@ internal sealed class StepController
         return true;
     }
 
-    private void SubstepUntilSolved(double dt, double tolerance)
+    private void SubstepUntilSolved(double dt, int halvings, double tolerance)
     {
-        for (int i = 1 << MaxHalvings; i > 0; i--)
+        for (int i = 1 << halvings; i > 0; i--)
         {
-            Halve(dt / (1 << MaxHalvings), MaxHalvings, tolerance);
+            Halve(dt / (1 << halvings), halvings, tolerance);
         }
     }
 
@@ -237,24 +255,32 @@ internal sealed class StepController
             return;
         }
 
-        Snapshot start = _substepStarts[depth - MaxHalvings];
-        SetSubstep(h);
+        Snapshot start = _substepStarts[depth];
+        _part.SetLength(h);
         start.Save(_batch);
-        if (TryRattle(h, tolerance) && IsEnergyKept(depth))
+        if (_part.TryRattle(h, tolerance) && IsEnergyKept(depth))
         {
             return;
         }
 
         start.Restore(_batch);
+        _part.Begin(h);
         if (depth < MaxDepth && _failures++ < MaxFailures)
         {
             Halve(h / 2, depth + 1, tolerance);
             Halve(h / 2, depth + 1, tolerance);
-            SetSubstep(h);
+            _part.SetLength(h);
             return;
         }
 
-        if (TryImplicitEuler(h, tolerance) && IsEnergyKept(depth))
+        if (_part.TryImplicitEuler(h, tolerance) && IsEnergyKept(depth))
+        {
+            return;
+        }
+
+        start.Restore(_batch);
+        _part.Begin(h);
+        if (_part.TryProjected(h, tolerance) && IsEnergyKept(depth))
         {
             return;
         }
@@ -262,104 +288,14 @@ internal sealed class StepController
         if (_dampedInStep == 0)
         {
             MeasureWorstResidual(tolerance);
+            start.Restore(_batch);
+            FindTroubles(tolerance);
         }
 
         start.Restore(_batch);
+        _part.Begin(h);
         _dampedInStep++;
         Damp();
-    }
-
-    private bool TryRattle(double h, double tolerance)
-    {
-        _batch.Work.Active[0] = 1;
-        RattleStep<ScalarLane>.KickAndDrift(_batch, h, tolerance, _converged, _refinesAfterFailure);
-        if (!_converged[0] || (_batch.ActiveSet != null && _batch.ActiveSet.HasMissedEvent(tolerance)))
-        {
-            return false;
-        }
-
-        _batch.ActiveSet?.AddWork();
-        RattleStep<ScalarLane>.Build(_batch);
-        _batch.Work.Active[0] = 1;
-        VelocityProjection<ScalarLane>.Run(_batch, h, tolerance);
-        Finish();
-        GeometricStiffness<ScalarLane>.Estimate(_batch, _batch.VelocityImpulses, h / 2);
-        return IsFinite();
-    }
-
-    private bool TryImplicitEuler(double h, double tolerance)
-    {
-        if (!_fallback.TrySolve(h, tolerance))
-        {
-            return false;
-        }
-
-        _batch.ActiveSet?.AddWork();
-        RattleStep<ScalarLane>.Build(_batch);
-        GeometricStiffness<ScalarLane>.Estimate(_batch, _batch.Work.PositionImpulses, h);
-        _batch.Work.Active[0] = 1;
-        VelocityProjection<ScalarLane>.Run(_batch, 0, tolerance);
-        Finish();
-
-        // What implicit Euler leaves behind is no guess for RATTLE.
-        Array.Clear(_batch.VelocityImpulses, 0, _batch.VelocityImpulses.Length);
-        return IsFinite();
-    }
-
-    private void Finish()
-    {
-        RattleStep<ScalarLane>.Accept(_batch);
-        AssembledRows<ScalarLane>.FinishAngles(_batch);
-        for (int i = 0; i < _batch.Work.TotalImpulses.Length; i++)
-        {
-            _batch.Work.TotalImpulses[i] += _batch.Work.PositionImpulses[i] + _batch.VelocityImpulses[i];
-        }
-    }
-
-    // Impulses are proportional to the part's length; the guess is scaled to it.
-    private void SetSubstep(double h)
-    {
-        if (_substep > 0 && _substep != h)
-        {
-            double factor = h / _substep;
-            for (int i = 0; i < _batch.VelocityImpulses.Length; i++)
-            {
-                _batch.VelocityImpulses[i] *= factor;
-            }
-
-            _batch.Scalars?.ScaleHistory(factor);
-        }
-
-        _substep = h;
-    }
-
-    private bool IsFinite()
-    {
-        for (int body = 0; body < _batch.Shape.MovingBodies; body++)
-        {
-            int o = LaneBatch<ScalarLane>.Body(body, 0);
-            for (int i = 0; i < BodyLanes.EndX; i++)
-            {
-                if (!(Math.Abs(_batch.Bodies[o + i]) < 1e100))
-                {
-                    return false;
-                }
-            }
-
-            // A turn too wide for the series leaves a quaternion that is none.
-            double norm = 0;
-            for (int i = BodyLanes.Q; i < BodyLanes.EndX; i++)
-            {
-                norm += _batch.Bodies[o + i] * _batch.Bodies[o + i];
-            }
-
-            if (!(Math.Abs(norm - 1) < MostStretch))
-            {
-                return false;
-            }
-        }
-
-        return true;
     }
 
     // The poses stay for this substep and the motion slows down, so that a state that no method can leave comes to rest.

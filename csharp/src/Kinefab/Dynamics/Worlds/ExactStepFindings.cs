@@ -41,10 +41,16 @@ internal sealed class ExactStepFindings
             Add(found, DiagnosticCodes.StartClosed, pointer, ("object", id), ("gap", Length(pose.Error, pose.IsAngular)), ("distance", Length(pose.Distance, false)), ("turn", Length(pose.Angle, true)), ("time", Text(time)));
         }
 
+        foreach (ForbiddenSpeed one in mechanism.ForbiddenSpeeds)
+        {
+            (string id, string pointer) = Place(mechanism, bodies, joints, one.Joint, one.Body);
+            Add(found, DiagnosticCodes.StartSpeedForbidden, pointer, ("object", id), ("speed", Speed(one)), ("time", Text(time)));
+        }
+
         foreach (UnsolvedStep step in mechanism.Unsolved)
         {
             (string id, string pointer) = Place(mechanism, bodies, joints, step.Joint, step.Body);
-            Add(found, DiagnosticCodes.StepUnsolved, pointer, ("object", id), ("reason", Reason(step)), ("time", Text(time)));
+            Add(found, DiagnosticCodes.StepUnsolved, pointer, ("object", id), ("reason", Reason(step)), ("time", Text(time)), ("advice", Advice(step)));
         }
 
         for (int i = 0; i < mechanism.HeldLimits.Count; i++)
@@ -82,18 +88,43 @@ internal sealed class ExactStepFindings
         : double.IsInfinity(step.Error) ? "it comes apart beyond all numbers"
         : FormattableString.Invariant($"it stays open by {step.Error:0.0e+0} {(step.IsAngular ? "rad" : "m")}");
 
+    // Only what is the case.
+    private static string Advice(in UnsolvedStep step)
+    {
+        var causes = new List<string>();
+        if (step.Troubles.HasFlag(StepTroubles.Open))
+        {
+            causes.Add("Close the joint in the pose that the step began from.");
+        }
+
+        if (step.Troubles.HasFlag(StepTroubles.Limit))
+        {
+            causes.Add("Widen the limits that the mechanism stands at, if they oppose each other.");
+        }
+
+        if (step.Troubles.HasFlag(StepTroubles.EndlessDrive))
+        {
+            causes.Add("Limit the force of the motors and drives that have no limit.");
+        }
+
+        causes.Add(causes.Count > 0 ? "Else take a shorter step." : "Take a shorter step.");
+        return string.Join(" ", causes);
+    }
+
     private void Add(List<Diagnostic> found, string code, string pointer, params (string Name, string Value)[] values)
     {
         int said = _places.Count(place => place.Code == code);
         if (said < Most && _places.Add((code, pointer)))
         {
             DiagnosticTable.Entry entry = DiagnosticTable.Entries[code];
-            found.Add(new Diagnostic(code, entry.Severity, DiagnosticTable.Fill(entry.Message, values), entry.Remedy, pointer, null, null));
+            found.Add(new Diagnostic(code, entry.Severity, DiagnosticTable.Fill(entry.Message, values), DiagnosticTable.Fill(entry.Remedy, values), pointer, null, null));
         }
     }
 
     private static string Length(double value, bool isAngle) =>
         isAngle ? FormattableString.Invariant($"{value * 180 / Math.PI:0.###} degrees") : FormattableString.Invariant($"{value:0.0e+0} m");
+
+    private static string Speed(in ForbiddenSpeed one) => Length(one.Speed, one.IsAngular) + "/s";
 
     private static string Text(double time) => time.ToString("0.######", CultureInfo.InvariantCulture);
 

@@ -118,19 +118,41 @@ internal sealed class WorldBuilder
         var couplings = new List<Kinefab.Joints.CoordinateCoupling>();
         foreach (Document.Coupling coupling in _scene.Document.Couplings)
         {
-            if (Find(coupling.A) is Kinefab.Joints.CoordinateAxisMap a && Find(coupling.B) is Kinefab.Joints.CoordinateAxisMap b)
+            if (MakeCoupling(coupling, bodies) is Kinefab.Joints.CoordinateCoupling made)
             {
-                // In radians, and with the coordinates' values at the start in the offset: the file counts from there.
-                double unitA = a.IsAngle ? Radians : 1;
-                double unitB = b.IsAngle ? Radians : 1;
-                double ratio = coupling.Ratio * unitB / unitA;
-                double startA = a.Evaluate(bodies.PoseOf(a.Joint.Body0), bodies.PoseOf(a.Joint.Body1), 0, out _);
-                double startB = b.Evaluate(bodies.PoseOf(b.Joint.Body0), bodies.PoseOf(b.Joint.Body1), 0, out _);
-                couplings.Add(new Kinefab.Joints.CoordinateCoupling(a, b, ratio, coupling.Offset * unitB + startB - ratio * startA));
+                couplings.Add(made);
             }
         }
 
         return couplings.ToArray();
+    }
+
+    /// <summary>In radians, and with the coordinates' values at the start in the offset: the file counts from there. Null when a joint's object is inactive.</summary>
+    private Kinefab.Joints.CoordinateCoupling? MakeCoupling(Document.Coupling coupling, Bodies bodies)
+    {
+        if (Find(coupling.B) is not Kinefab.Joints.CoordinateAxisMap driven)
+        {
+            return null;
+        }
+
+        double unit = driven.IsAngle ? Radians : 1;
+        double offset = coupling.Offset * unit + Start(driven);
+        var terms = new List<(Kinefab.Joints.CoordinateAxisMap, double)>();
+        foreach (Document.CouplingTerm term in coupling.Followed)
+        {
+            if (Find(term.Coordinate) is not Kinefab.Joints.CoordinateAxisMap followed)
+            {
+                return null;
+            }
+
+            double ratio = term.Ratio * unit / (followed.IsAngle ? Radians : 1);
+            offset -= ratio * Start(followed);
+            terms.Add((followed, ratio));
+        }
+
+        return new Kinefab.Joints.CoordinateCoupling(driven, terms, offset);
+
+        double Start(in Kinefab.Joints.CoordinateAxisMap of) => of.Evaluate(bodies.PoseOf(of.Joint.Body0), bodies.PoseOf(of.Joint.Body1), 0, out _);
     }
 
     /// <summary>Null when the joint's object is inactive.</summary>

@@ -79,7 +79,7 @@ internal sealed class PositionEquations
         MechanismCoordinate source = _linkage.Coordinates[coordinate];
         double q = Evaluate(coordinate, poses, values, out ConstraintRow row);
         RowPath path = _linkage.Rows.Joints[source.Joint];
-        double unit = source.IsAngle ? 1 : _linkage.Length;
+        double unit = UnitOf(coordinate);
         Pack(path, row, source.JointRows, poses, 1 / unit);
         Add(path, (q - target) / unit);
     }
@@ -197,22 +197,31 @@ internal sealed class PositionEquations
         }
     }
 
-    // C = (q_B - r q_A - offset) / u_B; dC = row_B / u_B - r row_A / u_B, all over max(1, |r| u_A / u_B) so that a steep
-    // ratio weighs no more than a joint.
+    // C = (q - sum of r_i q_i - offset) / u; dC = row / u - sum of r_i row_i / u, all over max(1, |r_i| u_i / u) so that a
+    // steep ratio weighs no more than a joint.
     private void AddCoupling(int index, Pose[] poses, double[] values)
     {
         PositionCoupling coupling = _linkage.Couplings[index];
         RowPath path = _linkage.Rows.Couplings[index];
-        double unitA = _linkage.Coordinates[coupling.A].IsAngle ? 1 : _linkage.Length;
-        double unitB = _linkage.Coordinates[coupling.B].IsAngle ? 1 : _linkage.Length;
-        double scale = 1 / (unitB * Math.Max(1, Math.Abs(coupling.Ratio) * unitA / unitB));
-        double qA = Evaluate(coupling.A, poses, values, out ConstraintRow rowA);
-        double qB = Evaluate(coupling.B, poses, values, out ConstraintRow rowB);
+        double unit = UnitOf(coupling.Driven);
+        double steepest = 1;
+        for (int i = 0; i < coupling.Terms.Length; i++)
+        {
+            steepest = Math.Max(steepest, Math.Abs(coupling.Ratios[i]) * UnitOf(coupling.Terms[i]) / unit);
+        }
+
+        double scale = 1 / (unit * steepest);
         Array.Clear(_row, 0, path.Width);
-        Scatter(path, coupling.B, rowB, poses, scale);
-        Scatter(path, coupling.A, rowA, poses, -coupling.Ratio * scale);
-        double c = (qB - coupling.Ratio * qA - coupling.Offset) * scale;
-        if (_linkage.Coordinates[coupling.B].IsAngle)
+        double c = Evaluate(coupling.Driven, poses, values, out ConstraintRow row);
+        Scatter(path, coupling.Driven, row, poses, scale);
+        for (int i = 0; i < coupling.Terms.Length; i++)
+        {
+            c -= coupling.Ratios[i] * Evaluate(coupling.Terms[i], poses, values, out row);
+            Scatter(path, coupling.Terms[i], row, poses, -coupling.Ratios[i] * scale);
+        }
+
+        c = (c - coupling.Offset) * scale;
+        if (_linkage.Coordinates[coupling.Driven].IsAngle)
         {
             WorstAngular = Math.Max(WorstAngular, Math.Abs(c));
         }
@@ -223,6 +232,8 @@ internal sealed class PositionEquations
 
         Add(path, c);
     }
+
+    private double UnitOf(int coordinate) => _linkage.Coordinates[coordinate].IsAngle ? 1 : _linkage.Length;
 
     private void Scatter(RowPath union, int coordinate, in ConstraintRow row, Pose[] poses, double scale)
     {

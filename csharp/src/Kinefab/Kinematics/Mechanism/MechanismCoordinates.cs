@@ -39,7 +39,11 @@ internal static class MechanismCoordinates
         var added = new HashSet<(int Joint, int Axis)>();
         foreach (Coupling coupling in couplings)
         {
-            AddLocked(coupling.A);
+            foreach (CouplingTerm term in coupling.Followed)
+            {
+                AddLocked(term.Coordinate);
+            }
+
             AddLocked(coupling.B);
         }
 

@@ -18,9 +18,11 @@ internal sealed class MechanismRows
         for (int i = 0; i < Couplings.Length; i++)
         {
             PositionCoupling coupling = couplings[i];
-            RowPath a = Joints[coordinates[coupling.A].Joint];
-            RowPath b = Joints[coordinates[coupling.B].Joint];
-            Couplings[i] = RowPath.Union(b, a, tree.Freedoms);
+            Couplings[i] = Joints[coordinates[coupling.Driven].Joint];
+            foreach (int term in coupling.Terms)
+            {
+                Couplings[i] = RowPath.Union(Couplings[i], Joints[coordinates[term].Joint], tree.Freedoms);
+            }
         }
 
         var all = new List<RowPath>(Joints);
@@ -31,7 +33,7 @@ internal sealed class MechanismRows
     /// <summary>For each joint the path between its bodies: one body for a tree joint, a loop for a closing one.</summary>
     public RowPath[] Joints { get; }
 
-    /// <summary>For each coupling the path of both its joints.</summary>
+    /// <summary>For each coupling the path of all its joints.</summary>
     public RowPath[] Couplings { get; }
 
     /// <summary>All of the above.</summary>

@@ -4,23 +4,27 @@ using Kinefab.Document;
 
 namespace Kinefab.Kinematics;
 
-/// <summary>q_B = Ratio q_A + Offset between two of a mechanism's coordinates, radians and metres as its rows have them.</summary>
+/// <summary>q_driven = sum of ratio_i q_i + offset between a mechanism's coordinates, radians and metres as its rows have them.</summary>
 internal readonly struct PositionCoupling
 {
-    public readonly int A;
-    public readonly int B;
-    public readonly double Ratio;
+    public readonly int Driven;
+
+    /// <summary>The coordinates that it follows.</summary>
+    public readonly int[] Terms;
+
+    /// <summary>One for each of the terms.</summary>
+    public readonly double[] Ratios;
     public readonly double Offset;
 
-    private PositionCoupling(int a, int b, double ratio, double offset)
+    private PositionCoupling(int driven, int[] terms, double[] ratios, double offset)
     {
-        A = a;
-        B = b;
-        Ratio = ratio;
+        Driven = driven;
+        Terms = terms;
+        Ratios = ratios;
         Offset = offset;
     }
 
-    /// <summary>The couplings whose joints are both there: those of inactive objects are not.</summary>
+    /// <summary>The couplings whose joints are all there: those of inactive objects are not.</summary>
     public static PositionCoupling[] Of(IReadOnlyList<Coupling> sources, MechanismCoordinate[] coordinates)
     {
         var places = new Dictionary<(int GameObject, int Component, Coordinate Coordinate), int>();
@@ -30,23 +34,45 @@ internal readonly struct PositionCoupling
         }
 
         var couplings = new List<PositionCoupling>();
-        for (int i = 0; i < sources.Count; i++)
+        foreach (Coupling source in sources)
         {
-            if (!places.TryGetValue(Place(sources[i].A), out int a) || !places.TryGetValue(Place(sources[i].B), out int b))
+            if (Make(source, coordinates, places) is PositionCoupling coupling)
             {
-                continue;
+                couplings.Add(coupling);
             }
-
-            double ratio = sources[i].Ratio * Unit(coordinates[b]) / Unit(coordinates[a]);
-            double offset = sources[i].Offset * Unit(coordinates[b]) + coordinates[b].Zero - ratio * coordinates[a].Zero;
-            couplings.Add(new PositionCoupling(a, b, ratio, offset));
         }
 
         return couplings.ToArray();
     }
 
     /// <summary>The same coupling in another list of coordinates.</summary>
-    public PositionCoupling Between(int a, int b) => new(a, b, Ratio, Offset);
+    public PositionCoupling Between(int driven, int[] terms) => new(driven, terms, Ratios, Offset);
+
+    private static PositionCoupling? Make(
+        Coupling source, MechanismCoordinate[] coordinates, Dictionary<(int GameObject, int Component, Coordinate Coordinate), int> places)
+    {
+        IReadOnlyList<CouplingTerm> followed = source.Followed;
+        if (!places.TryGetValue(Place(source.B), out int driven))
+        {
+            return null;
+        }
+
+        var terms = new int[followed.Count];
+        var ratios = new double[followed.Count];
+        double offset = source.Offset * Unit(coordinates[driven]) + coordinates[driven].Zero;
+        for (int i = 0; i < terms.Length; i++)
+        {
+            if (!places.TryGetValue(Place(followed[i].Coordinate), out terms[i]))
+            {
+                return null;
+            }
+
+            ratios[i] = followed[i].Ratio * Unit(coordinates[driven]) / Unit(coordinates[terms[i]]);
+            offset -= ratios[i] * coordinates[terms[i]].Zero;
+        }
+
+        return new PositionCoupling(driven, terms, ratios, offset);
+    }
 
     private static double Unit(MechanismCoordinate coordinate) => coordinate.IsAngle ? Math.PI / 180 : 1;
 

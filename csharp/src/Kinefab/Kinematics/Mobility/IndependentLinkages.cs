@@ -45,8 +45,12 @@ internal sealed class IndependentLinkages
         {
             int block = BlockOf(whole.Rows.Couplings[i]);
             Add(_couplings, block, i);
-            Add(_joints, block, whole.Coordinates[whole.Couplings[i].A].Joint);
-            Add(_joints, block, whole.Coordinates[whole.Couplings[i].B].Joint);
+            foreach (int term in whole.Couplings[i].Terms)
+            {
+                Add(_joints, block, whole.Coordinates[term].Joint);
+            }
+
+            Add(_joints, block, whole.Coordinates[whole.Couplings[i].Driven].Joint);
         }
     }
 
@@ -138,7 +142,7 @@ internal sealed class IndependentLinkages
         foreach (int i in _couplings[block])
         {
             PositionCoupling coupling = _whole.Couplings[i];
-            couplings.Add(coupling.Between(Coordinate(coupling.A), Coordinate(coupling.B)));
+            couplings.Add(coupling.Between(Coordinate(coupling.Driven), Array.ConvertAll(coupling.Terms, Coordinate)));
         }
 
         var linkage = new Linkage(isFixed, own, isClosure, ownCoordinates.ToArray(), couplings.ToArray(), _whole.Origin, _whole.Length);

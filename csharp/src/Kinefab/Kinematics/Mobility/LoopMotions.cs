@@ -30,7 +30,10 @@ internal sealed class LoopMotions
         foreach (PositionCoupling coupling in _part.Linkage.Couplings)
         {
             // A screw's is within one joint.
-            IsCoupled |= _part.Linkage.Coordinates[coupling.A].Joint != _part.Linkage.Coordinates[coupling.B].Joint;
+            foreach (int term in coupling.Terms)
+            {
+                IsCoupled |= _part.Linkage.Coordinates[term].Joint != _part.Linkage.Coordinates[coupling.Driven].Joint;
+            }
         }
     }
 

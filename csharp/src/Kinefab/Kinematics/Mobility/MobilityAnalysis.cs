@@ -167,10 +167,20 @@ public static class MobilityAnalysis
             return path[0];
         }
 
-        Joints.JointModel a = mechanism.Joints[mechanism.Coordinates[mechanism.Couplings[coupling].A].Joint];
-        Joints.JointModel b = mechanism.Joints[mechanism.Coordinates[mechanism.Couplings[coupling].B].Joint];
-        KinematicTree tree = mechanism.Tree;
-        return Math.Max(Math.Max(tree.Moving(a.Body0), tree.Moving(a.Body1)), Math.Max(tree.Moving(b.Body0), tree.Moving(b.Body1)));
+        PositionCoupling source = mechanism.Couplings[coupling];
+        int body = Moving(source.Driven);
+        foreach (int term in source.Terms)
+        {
+            body = Math.Max(body, Moving(term));
+        }
+
+        return body;
+
+        int Moving(int coordinate)
+        {
+            Joints.JointModel joint = mechanism.Joints[mechanism.Coordinates[coordinate].Joint];
+            return Math.Max(mechanism.Tree.Moving(joint.Body0), mechanism.Tree.Moving(joint.Body1));
+        }
     }
 
     private static List<RedundantRows> Named(Mechanism mechanism, int[] redundant)

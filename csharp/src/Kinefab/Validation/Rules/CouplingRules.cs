@@ -11,13 +11,50 @@ internal static class CouplingRules
 {
     internal static void Check(Coupling coupling, SceneDocument document, in Place at)
     {
-        NumberRules.Finite(at, "ratio", coupling.Ratio);
         NumberRules.Finite(at, "offset", coupling.Offset);
-        if (Resolve(coupling.A, "a", document, at) is Joint a)
-            Moves(coupling.A, a, "a", at);
-        if (Resolve(coupling.B, "b", document, at) is Joint b)
-            Moves(coupling.B, b, "b", at);
-        Itself(coupling, at);
+        if (coupling.Terms.Count == 0)
+        {
+            if (coupling.A is null)
+                at.Report("", DiagnosticCodes.FieldMissing, ("field", "a"));
+            else
+                Follows(coupling.A, "a", document, at);
+            if (coupling.Ratio is double ratio)
+                NumberRules.Finite(at, "ratio", ratio);
+            else
+                at.Report("", DiagnosticCodes.FieldMissing, ("field", "ratio"));
+        }
+        else if (coupling.A is not null || coupling.Ratio is not null)
+        {
+            at.Report(coupling.A is null ? "ratio" : "a", DiagnosticCodes.CouplingTermsBeside);
+        }
+
+        Terms(coupling, document, at);
+        Follows(coupling.B, "b", document, at);
+        if (coupling.A is JointCoordinate a && Place(a) == Place(coupling.B))
+            at.Report("b", DiagnosticCodes.CouplingItself);
+    }
+
+    private static void Terms(Coupling coupling, SceneDocument document, in Place at)
+    {
+        var known = new HashSet<(int, int, Coordinate)>();
+        for (int i = 0; i < coupling.Terms.Count; i++)
+        {
+            string term = "terms/" + Invariant.Text(i);
+            JointCoordinate coordinate = coupling.Terms[i].Coordinate;
+            NumberRules.Finite(at, term + "/ratio", coupling.Terms[i].Ratio);
+            Follows(coordinate, term + "/coordinate", document, at);
+            if (Place(coordinate) == Place(coupling.B))
+                at.Report(term + "/coordinate", DiagnosticCodes.CouplingItself);
+            else if (!known.Add(Place(coordinate)))
+                at.Report(term + "/coordinate", DiagnosticCodes.CouplingTermTwice);
+        }
+    }
+
+    /// <summary>A coordinate that is there, and moves.</summary>
+    private static void Follows(JointCoordinate coordinate, string side, SceneDocument document, in Place at)
+    {
+        if (Resolve(coordinate, side, document, at) is Joint joint)
+            Moves(coordinate, joint, side, at);
     }
 
     /// <summary>The joint that a coordinate belongs to, which must have that coordinate.</summary>
@@ -52,13 +89,6 @@ internal static class CouplingRules
             at.Report(side + "/coordinate", DiagnosticCodes.CouplingCoordinateLocked, ("coordinate", Word(coordinate.Coordinate)));
     }
 
-    private static void Itself(Coupling coupling, in Place at)
-    {
-        JointCoordinate a = coupling.A, b = coupling.B;
-        if (a.GameObject == b.GameObject && a.Component == b.Component && a.Coordinate == b.Coordinate)
-            at.Report("b", DiagnosticCodes.CouplingItself);
-    }
-
     private static ConfigurableJointMotion Motion(ConfigurableJoint joint, Coordinate coordinate) => coordinate switch
     {
         Coordinate.X => joint.XMotion,
@@ -68,6 +98,8 @@ internal static class CouplingRules
         Coordinate.AngularY => joint.AngularYMotion,
         _ => joint.AngularZMotion,
     };
+
+    private static (int GameObject, int Component, Coordinate Coordinate) Place(JointCoordinate of) => (of.GameObject, of.Component, of.Coordinate);
 
     private static string Word(Coordinate coordinate) => CoordinateWords.Table.WordOf(coordinate);
 }

@@ -75,9 +75,9 @@ namespace KinefabUnity.Editing
             KinefabFinding.Add(scene.Report, findings);
             KinefabFinding.AddLosses(scene.Document, findings);
 
-            var identities = new Identities(scene.Document);
             var external = GetExternalObjectMap();
-            var builder = new SceneBuilder(scene, settings, findings, i => Replaced(external, identities.Materials[i]));
+            SceneBuilder builder = null;
+            builder = new SceneBuilder(scene, settings, findings, i => Replaced(external, builder.Looks.Identities.Materials[i]));
             builder.Looks.Finish = mesh =>
             {
                 if (settings.lightmapUVs)
@@ -95,7 +95,7 @@ namespace KinefabUnity.Editing
             GameObject root = builder.Build("Mechanism", null);
             try
             {
-                Add(ctx, builder, identities, root, findings);
+                Add(ctx, builder, root, findings);
             }
             catch
             {
@@ -104,17 +104,19 @@ namespace KinefabUnity.Editing
             }
         }
 
-        private void Add(AssetImportContext ctx, SceneBuilder builder, Identities identities, GameObject root, List<KinefabFinding> findings)
+        private void Add(AssetImportContext ctx, SceneBuilder builder, GameObject root, List<KinefabFinding> findings)
         {
             ProjectFindings.Add(builder, settings, findings);
             KinefabSource source = KinefabSource.Of(File.ReadAllBytes(FileUtil.GetPhysicalPath(ctx.assetPath)));
             source.Tell(findings);
             builder.Move(source);
             var made = new List<(string Identifier, Object Object)>();
-            Collect(made, "meshes/", identities.Meshes, builder.Looks.Meshes);
-            Collect(made, "materials/", identities.Materials, builder.Looks.Materials);
-            Collect(made, "physicsMaterials/", identities.PhysicsMaterials, builder.Looks.PhysicsMaterials);
-            Collect(made, "clips/", identities.Clips, builder.AnimationClips);
+            Looks looks = builder.Looks;
+            Collect(made, "meshes/", looks.Identities.Meshes, looks.Meshes);
+            Collect(made, "textures/", new List<string>(looks.Textures.Keys), new List<Object>(looks.Textures.Values));
+            Collect(made, "materials/", looks.Identities.Materials, looks.Materials);
+            Collect(made, "physicsMaterials/", looks.Identities.PhysicsMaterials, looks.PhysicsMaterials);
+            Collect(made, "clips/", looks.Identities.Clips, builder.AnimationClips);
             made.Add(("source", source));
             made.Add(("root", root));
 

@@ -86,12 +86,16 @@ namespace KinefabUnity.Editing
 
             foreach (Doc.Coupling coupling in _scene.Document.Couplings)
             {
-                if (JointAt(coupling.A.GameObject, coupling.A.Component) is Doc.AnchoredJoint a && JointAt(coupling.B.GameObject, coupling.B.Component) is Doc.AnchoredJoint b)
+                foreach (Doc.CouplingTerm term in coupling.Followed)
                 {
-                    _lines.Add(new FigureLine(
-                        FigureKind.Coupling, Coupled,
-                        coupling.A.GameObject, InBody(coupling.A.GameObject, Anchor(coupling.A.GameObject, a)),
-                        coupling.B.GameObject, InBody(coupling.B.GameObject, Anchor(coupling.B.GameObject, b))));
+                    Doc.JointCoordinate from = term.Coordinate;
+                    if (JointAt(from.GameObject, from.Component) is Doc.AnchoredJoint a && JointAt(coupling.B.GameObject, coupling.B.Component) is Doc.AnchoredJoint b)
+                    {
+                        _lines.Add(new FigureLine(
+                            FigureKind.Coupling, Coupled,
+                            from.GameObject, InBody(from.GameObject, Anchor(from.GameObject, a)),
+                            coupling.B.GameObject, InBody(coupling.B.GameObject, Anchor(coupling.B.GameObject, b))));
+                    }
                 }
             }
         }

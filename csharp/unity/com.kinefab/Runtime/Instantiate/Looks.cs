@@ -17,6 +17,7 @@ namespace KinefabUnity
     /// <summary>Meshes, materials and physics materials of a scene, each made when it is first asked for and shared by all that show it.</summary>
     internal sealed class Looks
     {
+        private const int UvSets = 8;
         private readonly ValidScene scene;
         private readonly KinefabSettings settings;
         private readonly Surfaces surfaces;
@@ -25,22 +26,30 @@ namespace KinefabUnity
         private readonly Material[] materials;
         private readonly PhysicsMaterial[] physicsMaterials;
         private readonly bool[] touched;
+        private readonly bool[] bumpy;
+        private readonly List<KinefabFinding> findings;
 
         /// <param name="scene">Whose looks they are.</param>
-        /// <param name="settings">Whether meshes stay readable.</param>
-        /// <param name="surfaces">Makes the materials.</param>
+        /// <param name="settings">Whether meshes stay readable, and what the surfaces are copies of.</param>
+        /// <param name="findings">Gets what the project lacks, and what its shaders have no place for.</param>
         /// <param name="replaced">The user's own material in the place of one of the file, by its index; null: the file's.</param>
-        internal Looks(ValidScene scene, KinefabSettings settings, Surfaces surfaces, Func<int, Material> replaced)
+        internal Looks(ValidScene scene, KinefabSettings settings, List<KinefabFinding> findings, Func<int, Material> replaced)
         {
             this.scene = scene;
             this.settings = settings;
-            this.surfaces = surfaces;
+            this.findings = findings;
+            surfaces = new Surfaces(scene.Document, settings.material, findings);
+            Identities = new Identities(scene.Document);
             this.replaced = replaced;
             meshes = new Mesh[scene.Document.Meshes.Count];
             materials = new Material[scene.Document.Materials.Count];
             physicsMaterials = new PhysicsMaterial[scene.Document.PhysicsMaterials.Count];
             touched = Touched(scene.Document);
+            bumpy = Bumpy(scene.Document);
         }
+
+        /// <summary>What each is in the source.</summary>
+        internal Identities Identities { get; }
 
         /// <summary>Called with each mesh when it is made, before it is closed to scripts.</summary>
         internal Action<Mesh> Finish { get; set; }
@@ -54,14 +63,17 @@ namespace KinefabUnity
         /// <summary>Those that were asked for; null stands for the others.</summary>
         internal IReadOnlyList<PhysicsMaterial> PhysicsMaterials => physicsMaterials;
 
-        internal Mesh Mesh(int index) => meshes[index] != null ? meshes[index] : meshes[index] = Make(scene.Mesh(index), touched[index]);
+        /// <summary>By what they are in the source; null stands for what Unity could not read.</summary>
+        internal IReadOnlyDictionary<string, Texture2D> Textures => surfaces.Textures.Made;
+
+        internal Mesh Mesh(int index) => meshes[index] != null ? meshes[index] : meshes[index] = Make(index);
 
         internal Material Material(int index)
         {
             if (materials[index] == null)
             {
                 // Made in any case: what there is to replace does not depend on what is replaced.
-                materials[index] = surfaces.Make(scene.Document.Materials[index]);
+                materials[index] = surfaces.Make(scene.Document.Materials[index], Identities.Materials[index]);
             }
 
             Material own = replaced?.Invoke(index);
@@ -104,8 +116,39 @@ namespace KinefabUnity
             return touched;
         }
 
-        private Mesh Make(MeshData data, bool isTouched)
+        // Those that show a normal map.
+        private static bool[] Bumpy(Doc.SceneDocument document)
         {
+            var bumpy = new bool[document.Meshes.Count];
+            foreach (Doc.GameObject from in document.GameObjects)
+            {
+                bool shows = false;
+                foreach (Doc.Component component in from.Components)
+                {
+                    if (component is Doc.MeshRenderer renderer)
+                    {
+                        foreach (int material in renderer.Materials)
+                        {
+                            shows |= document.Materials[material].NormalTexture != null;
+                        }
+                    }
+                }
+
+                foreach (Doc.Component component in from.Components)
+                {
+                    if (shows && component is Doc.MeshFilter filter)
+                    {
+                        bumpy[filter.Mesh] = true;
+                    }
+                }
+            }
+
+            return bumpy;
+        }
+
+        private Mesh Make(int index)
+        {
+            MeshData data = scene.Mesh(index);
             Doc.Mesh from = data.Mesh;
 
             // The size of an index first: 65,536 vertices and more do not fit the smaller one.
@@ -116,9 +159,13 @@ namespace KinefabUnity
                 mesh.SetTriangles(Indices(data, from.Submeshes[i]), i);
             }
 
-            if (!data.Uv.IsEmpty)
+            for (int set = 0; set < UvSets; set++)
             {
-                mesh.uv = Pairs(data.Uv);
+                ReadOnlySpan<float> uv = data.UvOf(set);
+                if (!uv.IsEmpty)
+                {
+                    mesh.SetUVs(set, Pairs(uv));
+                }
             }
 
             if (data.Normals.IsEmpty)
@@ -130,9 +177,24 @@ namespace KinefabUnity
                 mesh.normals = Vectors(data.Normals);
             }
 
+            if (!data.Tangents.IsEmpty)
+            {
+                mesh.tangents = Fours(data.Tangents, (x, y, z, w) => new Vector4(x, y, z, w));
+            }
+            else if (bumpy[index] && !data.Uv.IsEmpty)
+            {
+                mesh.RecalculateTangents();
+            }
+
+            if (!data.Colors.IsEmpty)
+            {
+                mesh.colors = Fours(data.Colors, (r, g, b, a) => new Color(r, g, b, a));
+                findings.Add(KinefabFinding.Of("TARGET_FIELD_DROPPED", $"the colours of vertices of mesh {from.Name}", ("target", "The pipeline's standard shader"), ("field", "the colours of vertices"), ("feature", $"mesh {from.Name}")));
+            }
+
             mesh.RecalculateBounds();
             Finish?.Invoke(mesh);
-            if (!settings.readWrite && !isTouched)
+            if (!settings.readWrite && !touched[index])
             {
                 mesh.UploadMeshData(markNoLongerReadable: true);
             }
@@ -149,6 +211,17 @@ namespace KinefabUnity
             }
 
             return vectors;
+        }
+
+        private static T[] Fours<T>(ReadOnlySpan<float> numbers, Func<float, float, float, float, T> made)
+        {
+            var fours = new T[numbers.Length / 4];
+            for (int i = 0; i < fours.Length; i++)
+            {
+                fours[i] = made(numbers[4 * i], numbers[4 * i + 1], numbers[4 * i + 2], numbers[4 * i + 3]);
+            }
+
+            return fours;
         }
 
         private static Vector2[] Pairs(ReadOnlySpan<float> numbers)

@@ -11,6 +11,8 @@ namespace KinefabUnity
 
         internal static Vector3 Vector(Vector3d v) => new Vector3((float)v.X, (float)v.Y, (float)v.Z);
 
+        internal static Vector2 Vector(Vector2d v) => new Vector2((float)v.X, (float)v.Y);
+
         internal static Vector3d Vector(Vector3 v) => new Vector3d(v.x, v.y, v.z);
 
         // The file's quaternions may be off unit length by 1e-4, which Unity says is no rotation.

@@ -1,7 +1,6 @@
 using System;
 using System.Collections.Generic;
 using System.Globalization;
-using System.Security.Cryptography;
 using System.Text;
 
 namespace KinefabUnity
@@ -101,19 +100,6 @@ namespace KinefabUnity
             return found.Length == 0 ? "_" : found;
         }
 
-        private static string Hash(string id)
-        {
-            using (MD5 md5 = MD5.Create())
-            {
-                byte[] bytes = md5.ComputeHash(Encoding.UTF8.GetBytes(id));
-                var digits = new StringBuilder(Digits);
-                for (int i = 0; i < Digits / 2; i++)
-                {
-                    digits.Append(bytes[i].ToString("x2", CultureInfo.InvariantCulture));
-                }
-
-                return digits.ToString();
-            }
-        }
+        private static string Hash(string id) => Digest.Of(id).Substring(0, Digits);
     }
 }

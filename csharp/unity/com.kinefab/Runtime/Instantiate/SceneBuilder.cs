@@ -31,7 +31,7 @@ namespace KinefabUnity
             this.settings = settings;
             this.findings = findings;
             document = scene.Document;
-            Looks = new Looks(scene, settings, new Surfaces(settings.material, findings), replaced);
+            Looks = new Looks(scene, settings, findings, replaced);
             Objects = new GameObject[document.GameObjects.Count];
             names = ObjectNames.Of(
                 List(o => o.Parent ?? -1),
@@ -94,19 +94,12 @@ namespace KinefabUnity
             }
 
             UnityEngine.Object.DestroyImmediate(root);
-            foreach (Mesh mesh in Looks.Meshes)
+            foreach (IEnumerable<UnityEngine.Object> kind in new IEnumerable<UnityEngine.Object>[] { Looks.Meshes, Looks.Materials, Looks.Textures.Values, Looks.PhysicsMaterials, clips })
             {
-                UnityEngine.Object.DestroyImmediate(mesh);
-            }
-
-            foreach (Material material in Looks.Materials)
-            {
-                UnityEngine.Object.DestroyImmediate(material);
-            }
-
-            foreach (AnimationClip clip in clips)
-            {
-                UnityEngine.Object.DestroyImmediate(clip);
+                foreach (UnityEngine.Object made in kind)
+                {
+                    UnityEngine.Object.DestroyImmediate(made);
+                }
             }
         }
 
@@ -118,6 +111,8 @@ namespace KinefabUnity
                 root = new GameObject(name);
             }
 
+            var words = new LayersAndTags(findings);
+
             // Every pose comes before any body: PhysX takes a body's pose when the body is made. And nothing acts before all is there.
             for (int i = 0; i < Objects.Length; i++)
             {
@@ -127,8 +122,10 @@ namespace KinefabUnity
                 root.SetActive(false);
                 Transform above = from.Parent is int index ? Objects[index].transform : hasOwnRoot ? root.transform : null;
                 Place(Objects[i].transform, above, from.Transform);
+                words.Set(Objects[i], from);
             }
 
+            words.Tell();
             if (root == null)
             {
                 root = new GameObject(name);

@@ -1,5 +1,6 @@
 using System;
 using System.Collections.Generic;
+using Kinefab.Numerics;
 using UnityEngine;
 using UnityEngine.Rendering;
 using Doc = Kinefab.Document;
@@ -9,51 +10,92 @@ namespace KinefabUnity
     /// <summary>Makes materials of the shader that the project's render pipeline calls its standard one, or of a template.</summary>
     internal sealed class Surfaces
     {
-        private const int TransparentQueue = 3000;
         private readonly Material template;
         private readonly List<KinefabFinding> findings;
         private Shader shader;
         private bool isLooked;
 
+        /// <param name="document">Whose materials and images they are.</param>
         /// <param name="template">Copied for each surface; null: what the pipeline has.</param>
-        /// <param name="findings">Gets what the project lacks.</param>
-        internal Surfaces(Material template, List<KinefabFinding> findings)
+        /// <param name="findings">Gets what the project lacks, and what its shader has no place for.</param>
+        internal Surfaces(Doc.SceneDocument document, Material template, List<KinefabFinding> findings)
         {
+            Textures = new Textures(document, findings);
             this.template = template != null ? template : PipelineMaterial();
             this.findings = findings;
         }
 
+        /// <summary>Those that the materials show.</summary>
+        internal Textures Textures { get; }
+
         /// <summary>Null where the project has no shader for it: Unity then shows its own sign for that.</summary>
-        internal Material Make(Doc.Material from)
+        /// <param name="from">The material.</param>
+        /// <param name="own">What it is among all.</param>
+        internal Material Make(Doc.Material from, string own)
         {
-            Material material = Blank(from.Name);
+            Material material = Blank();
             if (material == null)
             {
                 return null;
             }
 
             material.name = from.Name;
-
-            // The file's colour is linear, a material's property is not.
-            Color color = new Color((float)from.Color.R, (float)from.Color.G, (float)from.Color.B, (float)from.Color.A).gamma;
-            foreach (string property in new[] { "_Color", "_BaseColor" })
+            var maps = new SurfaceMaps
             {
-                if (material.HasProperty(property))
-                {
-                    material.SetColor(property, color);
-                }
-            }
+                Color = Textures.Plain(from.ColorTexture, isNormal: false, "color", from.Name),
+                Normal = Textures.Plain(from.NormalTexture, isNormal: true, "normal", from.Name),
+                Packed = Textures.Packed(from, own),
 
-            Set(material, "_Metallic", from.Metallic);
-            Set(material, "_Glossiness", from.Smoothness); // Standard
-            Set(material, "_Smoothness", from.Smoothness); // URP and HDRP Lit
-            if (from.Color.A < 1)
-            {
-                Blend(material);
-            }
-
+                // What shines not at all shows no map.
+                Emission = from.Emission == Vector3d.Zero ? null : Textures.Plain(from.EmissionTexture, isNormal: false, "emission", from.Name),
+            };
+            SurfaceSheet.Fill(material, from, maps);
+            TellLosses(material, from, maps);
             return material;
         }
+
+        private void TellLosses(Material material, Doc.Material from, SurfaceMaps maps)
+        {
+            string owner = "material " + from.Name, shader = $"the shader {material.shader.name}";
+            if (from.DoubleSided && !SurfaceSheet.CanBeDoubleSided(material))
+            {
+                Lost("doubleSided", owner, shader);
+            }
+
+            Doc.Texture leading = SurfaceSheet.Leading(from, maps);
+            Texture(maps.Color, from.ColorTexture, "color", isAlone: false);
+            Texture(maps.Normal, from.NormalTexture, "normal", isAlone: false);
+            Texture(maps.Packed, from.MetallicRoughnessTexture, "metallic and roughness", isAlone: false);
+            Texture(maps.Packed, from.OcclusionTexture, "occlusion", isAlone: false);
+            Texture(maps.Emission, from.EmissionTexture, "emission", isAlone: SurfaceSheet.IsHdrp(material));
+
+            void Texture(Texture2D shown, Doc.Texture texture, string slot, bool isAlone)
+            {
+                if (shown == null || texture == null)
+                {
+                    return;
+                }
+
+                string feature = $"{slot} texture of {owner}";
+                if (texture.UvSet != 0)
+                {
+                    Lost("uvSet", feature, shader);
+                }
+
+                if (texture.Rotation != 0)
+                {
+                    Lost("rotation", feature, shader);
+                }
+
+                if (!isAlone && (texture.Scale != leading.Scale || texture.Offset != leading.Offset))
+                {
+                    Lost("its own scale and offset", feature, shader);
+                }
+            }
+        }
+
+        private void Lost(string field, string feature, string target) =>
+            findings.Add(KinefabFinding.Of("TARGET_FIELD_DROPPED", $"{field} of {feature}", ("target", target), ("field", field), ("feature", feature)));
 
         // Of the editor: in a build pipelines have none, and there a template is given.
         private static Material PipelineMaterial()
@@ -62,7 +104,7 @@ namespace KinefabUnity
             return pipeline == null ? null : pipeline.defaultMaterial;
         }
 
-        private Material Blank(string name)
+        private Material Blank()
         {
             if (template != null)
             {
@@ -90,30 +132,6 @@ namespace KinefabUnity
                 : kind.IndexOf("HD", StringComparison.Ordinal) >= 0 ? "HDRP/Lit" : "Standard";
             Shader own = pipeline == null ? null : pipeline.defaultShader;
             return own != null ? own : Shader.Find(wanted);
-        }
-
-        // Standard's Transparent, and Transparent with premultiplied colours of URP's and HDRP's Lit.
-        private static void Blend(Material material)
-        {
-            Set(material, "_Mode", 3);
-            Set(material, "_Surface", 1);
-            Set(material, "_SurfaceType", 1);
-            Set(material, "_SrcBlend", (int)BlendMode.One);
-            Set(material, "_DstBlend", (int)BlendMode.OneMinusSrcAlpha);
-            Set(material, "_AlphaSrcBlend", (int)BlendMode.One);
-            Set(material, "_AlphaDstBlend", (int)BlendMode.OneMinusSrcAlpha);
-            Set(material, "_ZWrite", 0);
-            material.SetOverrideTag("RenderType", "Transparent");
-            material.EnableKeyword(material.HasProperty("_Mode") ? "_ALPHAPREMULTIPLY_ON" : "_SURFACE_TYPE_TRANSPARENT");
-            material.renderQueue = TransparentQueue;
-        }
-
-        private static void Set(Material material, string property, double value)
-        {
-            if (material.HasProperty(property))
-            {
-                material.SetFloat(property, (float)value);
-            }
         }
     }
 }

@@ -74,7 +74,7 @@ def _through(scene: Scene, helping: Mapping[int, list[int]]) -> list[Apart]:
         for helper, end in ((joint.a, joint.b), (joint.b, joint.a)):
             if helper in helpers and end not in helpers and end is not None:
                 ends.setdefault(sets.find(helper), set()).add(end)
-    stated = {frozenset((pair.a, pair.b)) for pair in scene.apart}
+    stated = {frozenset((pair.a, pair.b)) for pair in [*scene.apart, *scene.colliding]}
     pairs = dict.fromkeys(pair for those in ends.values() for pair in combinations(sorted(those), 2))
     return [
         Apart(a, b, "a joint through a light body", stated=False)

@@ -19,7 +19,7 @@ from ..robots.rigid_links import Carrier, add_links
 from ..robots.robot_frame import direction
 from .actuators import read_actuators
 from .bodies import Bodies
-from .contacts import add_excludes, excluded, masks
+from .contacts import add_excludes, add_pairs, excluded, masks, with_parents_met
 from .engine import Compiled, compile_model
 from .equalities import Equalities
 from .files import scan
@@ -49,10 +49,12 @@ def read(path: Path, report: Report, request: Request = Request()) -> Scene:
     if len(scene.nodes) == 1:
         report.add("SCENE_WITHOUT_PARTS", files.root.where)
     scene.joints += made.joints
+    scene.joints = with_parents_met(scene, compiled, carriers)
     equalities = Equalities(compiled, carriers, made, scene, report, frozenset(excluded(compiled)))
     equalities.read()
     add_excludes(scene, compiled, carriers, _joined(scene, carriers), report)
-    scene.extras = masks(compiled, report)
+    add_pairs(scene, compiled, carriers, report)
+    scene.extras = masks(compiled)
     tell_losses(compiled, equalities, report)
     report.raise_for_errors()
     return scene

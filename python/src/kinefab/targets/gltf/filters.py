@@ -10,9 +10,9 @@ from collections.abc import Mapping
 from typing import Any
 
 from ...diagnostics import Report
-from ...model import Scene
+from ...model import Scene, ignored_groups
 from ...rigid import RigidGroups
-from ..filtering import ignored_groups, ignored_pairs
+from ..filtering import ignored_pairs, tell_colliding
 
 System = tuple[str, tuple[int, ...]]
 """Group, "" for none, and the nodes that pairs name."""
@@ -24,6 +24,7 @@ class Filters:
 
     def __init__(self, scene: Scene, groups: RigidGroups, report: Report):
         self._scene, self._groups = scene, groups
+        tell_colliding(scene, report, TARGET)
         self._pairs, unknown = ignored_pairs(scene)
         self._named = {node for pair in self._pairs for node in pair}
         self._members: dict[System, list[dict[str, Any]]] = {}
@@ -59,7 +60,7 @@ class Filters:
 
     def _ignored(self) -> Mapping[System, set[System]]:
         """Systems that ignore any, and those."""
-        groups = ignored_groups({group for group, _ in self._members}, self._scene)
+        groups = ignored_groups({group for group, _ in self._members}, self._scene.extras)
         systems: dict[int, list[System]] = {}
         by_group: dict[str, list[System]] = {}
         for system in self._members:

@@ -39,9 +39,6 @@ def tell_losses(scene: UnityScene, options: PrefabOptions, report: Report) -> No
                     f"{name} {word} of {entry.id}", "TARGET_FIELD_DROPPED", field=name, target=TARGET
                 )
         for component in entry.components:
-            if isinstance(component, Collider) and component.group:
-                feature = f"collision group {component.group} of {entry.id}"
-                report.dropped(feature, "TARGET_FIELD_DROPPED", field="group", target=TARGET)
             if isinstance(component, Rigidbody) and not component.isKinematic:
                 _tell_rigidbody(component, entry.id, options, report)
             if isinstance(component, ArticulationBody):

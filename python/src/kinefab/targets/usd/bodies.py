@@ -29,14 +29,14 @@ class Bodies:
 
     @property
     def base(self) -> int | None:
-        """The body of the ground that everything joined to it hangs on."""
+        """The body of the ground that hangs on the world, as all others of the ground hang on it."""
         return self.grounded[0] if self.grounded else None
 
     def carrier(self, node: int | None) -> int | None:
-        """The body that a joint's side belongs to; None for the world."""
+        """The body that a joint's side belongs to; None for the world, which a single base stands for."""
         if self.groups.is_ground(node):
             found = None if node is None else self.inside[node]
-            return self.base if found is None else found
+            return self.base if found is None and len(self.grounded) == 1 else found
         assert node is not None
         return self.moving.carrier_of[node]
 

@@ -37,6 +37,7 @@ from .. import frames
 from ..scene.joints.configurable_joint import MOTION_FIELDS
 from .drives import breaks, driven, hinge_turn, slerp_of
 from .links import LINK, link_basis, link_freedoms
+from .terms import terms_of
 
 WORLD = "the world"
 """Id of the node that stands for the world, on which joints without a connected body hang."""
@@ -146,9 +147,8 @@ def restored(document: Entry) -> Restored:
     source = Source(str(document.get("source", {}).get("uri", "")))
     scene = Scene(nodes=reading.nodes, joints=joints, source=source)
     for i, entry in enumerate(document.get("couplings", ())):
-        ends = [place.get((entry[end]["gameObject"], entry[end]["component"])) for end in "ab"]
-        if ends[0] is not None and ends[1] is not None:
-            scene.couplings.append(_coupling(entry, f"coupling:{i}", ends[0], ends[1], reading, scene))
+        if (coupling := _coupling(entry, f"coupling:{i}", place, reading, scene)) is not None:
+            scene.couplings.append(coupling)
     return Restored(scene, reading.node_of, reading.poses, reading.scales, place)
 
 
@@ -254,17 +254,31 @@ def _limited(component: Entry, i: int) -> Freedom:
 
 
 def _coupling(
-    entry: Entry, name: str, first: Joint, second: Joint, reading: _Reading, scene: Scene
-) -> Coupling:
-    (sign_a, zero_a, freedom_a), (sign_b, zero_b, freedom_b) = (
-        _reading_of(entry[end], joint, reading, scene) for end, joint in (("a", first), ("b", second))
-    )
-    unit_a, unit_b = (math.radians(1.0) if freedom >= RX else 1.0 for freedom in (freedom_a, freedom_b))
-    ratio = sign_b * sign_a * float(entry["ratio"]) * unit_b / unit_a
-    offset = zero_b + sign_b * float(entry.get("offset", 0.0)) * unit_b - ratio * zero_a
-    term = Term(first.id, freedom_a, ratio)
+    entry: Entry, name: str, place: Mapping[tuple[int, int], Joint], reading: _Reading, scene: Scene
+) -> Coupling | None:
+    """None where one of its joints is not there."""
+    stated = terms_of(entry)
+    joints = [place.get((end["gameObject"], end["component"])) for end in (entry["b"], *(end for end, _ in stated))]
+    driven = joints[0]
+    if driven is None:
+        return None
+    sign, zero, freedom = _reading_of(entry["b"], driven, reading, scene)
+    unit = _unit(freedom)
+    offset = zero + sign * float(entry.get("offset", 0.0)) * unit
+    terms: list[Term] = []
+    for (end, stated_ratio), joint in zip(stated, joints[1:]):
+        if joint is None:
+            return None
+        sign_of_term, zero_of_term, followed = _reading_of(end, joint, reading, scene)
+        ratio = sign * sign_of_term * stated_ratio * unit / _unit(followed)
+        offset -= ratio * zero_of_term
+        terms.append(Term(joint.id, followed, ratio))
     kind = CouplingKind(entry.get("kind", "linear"))
-    return Coupling(str(entry.get("id", name)), kind, second.id, freedom_b, (term,), offset)
+    return Coupling(str(entry.get("id", name)), kind, driven.id, freedom, tuple(terms), offset)
+
+
+def _unit(freedom: int) -> float:
+    return math.radians(1.0) if freedom >= RX else 1.0
 
 
 def _reading_of(end: Entry, joint: Joint, reading: _Reading, scene: Scene) -> tuple[float, float, int]:

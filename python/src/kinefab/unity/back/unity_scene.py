@@ -29,6 +29,7 @@ from ..scene import (
 from .demanded import demand_sound
 from .looks import material
 from .nouns import COMPONENTS, component, noun, tell, told
+from .terms import terms_of
 
 Entry = Mapping[str, Any]
 _WIDTHS = {"uint16": "<u2", "uint32": "<u4"}
@@ -129,8 +130,7 @@ def _game_object(entry: Entry, report: Report) -> GameObject:
 
 
 def _coupling(index: int, entry: Entry) -> Coupling:
-    driven, driver = (noun(JointCoordinate, entry[end]) for end in "ba")
-    term = CouplingTerm(driver, float(entry["ratio"]))
-    return Coupling(
-        str(entry.get("id", f"coupling:{index}")), entry["kind"], driven, (term,), float(entry.get("offset", 0.0))
-    )  # fmt: skip
+    terms = tuple(CouplingTerm(noun(JointCoordinate, end), ratio) for end, ratio in terms_of(entry))
+    id = str(entry.get("id", f"coupling:{index}"))
+    driven = noun(JointCoordinate, entry["b"])
+    return Coupling(id, entry["kind"], driven, terms, float(entry.get("offset", 0.0)))

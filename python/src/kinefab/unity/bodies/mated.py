@@ -27,7 +27,7 @@ BY_CONTACT = frozenset(
 def with_mated_apart(scene: Scene, groups: RigidGroups) -> Scene:
     """The scene in which bodies that a constraint puts into each other do not collide, also where no joint is made between them:
     teeth that mesh, and bearings whose joint hangs the body on another one."""
-    known = {frozenset((pair.a, pair.b)) for pair in scene.apart}
+    known = {frozenset((pair.a, pair.b)) for pair in [*scene.apart, *scene.colliding]}
     known |= {frozenset((joint.a, joint.b)) for joint in scene.joints if not joint.collide}
     mated: dict[frozenset[int | None], Apart] = {}
     for constraint in scene.constraints:

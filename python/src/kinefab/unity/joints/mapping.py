@@ -51,7 +51,7 @@ class UnityCoordinate:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class UnityJoint:
-    """A component, the node whose Rigidbody carries it and the one it is connected to (None: the world).
+    """A component, the node whose Rigidbody carries it and the one it is connected to (None: the ground's own, or the world).
 
     component: without ``connectedBody``.
     coordinates: for each freedom (TX..RZ) that is not locked, how to read it.
@@ -72,11 +72,13 @@ def map_joint(
     report: Report,
     finding: JointFinding | None = None,
     led: Callable[[int], bool] = lambda carrier: False,
+    base: Callable[[int], int | None] = lambda node: None,
 ) -> UnityJoint | None:
     """The component for ``joint``, or None where none is needed or possible; ``report`` says which and why.
 
     carrier: the node whose GameObject has the Rigidbody that a node moves with.  finding: what is known of the joint.
-    led: whether scripts alone move the Rigidbody of a carrier.
+    led: whether scripts alone move the Rigidbody of a carrier.  base: of a node on the ground the one whose Rigidbody holds it,
+    None where the ground's does.
     """
     found = finding or JointFinding(joint.id)
     feature = f"joint {joint.id}"
@@ -85,9 +87,12 @@ def map_joint(
             feature, "JOINT_WITHOUT_BODY", joint.where, joint=joint.id, node=scene.nodes[unbodied].id
         )
         return None
-    a, b = (None if n is None or groups.is_ground(n) else carrier(n) for n in (joint.a, joint.b))
+    stands = groups.is_ground(joint.a), groups.is_ground(joint.b)
+    a, b = (
+        None if n is None else base(n) if still else carrier(n) for n, still in zip((joint.a, joint.b), stands)
+    )
     # Unity's solver moves neither side, and lets two kinematic bodies pass each other with a joint or without
-    idle = a != b and all(side is None or led(side) for side in (a, b))
+    idle = a != b and not all(stands) and all(still or (n is not None and led(n)) for n, still in zip((a, b), stands))
     counted = next((c for c in scene.couplings if joint.id in c.joints), None)
     if idle and counted is not None:  # there to be counted by alone, however scripts move the two
         joint = replace(joint, kind=JointKind.GENERAL, freedoms=(FREE,) * 6)
@@ -108,7 +113,7 @@ def map_joint(
         report.add("JOINT_BETWEEN_LED_COUNTED", joint.where, joint=joint.id, coupling=counted.id)
     frame_a = scene.pose(a).inverse() @ scene.pose(joint.a) @ shape.frame_a
     frame_b = scene.pose(b).inverse() @ scene.pose(joint.b) @ shape.frame_b
-    placement = place(shape, a is None, b is None)
+    placement = place(shape, *stands)
     before = len(report.outcomes)
     component = _component(joint, shape, found, frame_a, frame_b, placement, coordinates, report)
     owner, connected = (a, b) if placement.on_a else (b, a)

@@ -174,7 +174,8 @@ class _Articulation:
     def _tree(self) -> tuple[dict[int, tuple[int | None, Edge | None]], list[Edge]]:
         """Of each link the one above it and the joint between them, roots first; and the joints that close loops.
 
-        From the ground outwards, else from what scripts move, by joints that close no loop as the analysis has it; the rest of what is reached is closing.
+        From the ground outwards, then from what else stands or scripts move, by joints that close no loop as the analysis has it; the
+        rest of what is reached is closing.
         """
         at: dict[int, list[Edge]] = defaultdict(list)
         for edge in sorted(self.edges, key=lambda e: (self._joint(e).closure, e)):
@@ -192,7 +193,7 @@ class _Articulation:
                 body = waiting.popleft()
                 for edge in at[body]:
                     other = edge[0] if edge[0] != body else self._other(edge)
-                    if other not in found:
+                    if other not in found and not self.bodies[other].isKinematic:
                         found[other] = (body, edge)
                         waiting.append(other)
         inner = {edge for _, edge in found.values()}

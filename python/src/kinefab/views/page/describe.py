@@ -11,6 +11,7 @@ import numpy as np
 
 from ...model import FREEDOM_NAMES, Joint
 from ...spatial import Array, Pose
+from ...unity.back.terms import terms_of
 from ..extent import ends_in_sight, span_of
 from ..freedoms import counted, world_placements
 from ..seen import shown
@@ -145,11 +146,13 @@ def _couplings(
 ) -> list[dict[str, Any]]:
     found: list[dict[str, Any]] = []
     for coupling in document.get("couplings", ()):
-        ends = [place.get((coupling[e]["gameObject"], coupling[e]["component"])) for e in "ab"]
-        if ends[0] is None or ends[1] is None:
+        terms = terms_of(coupling)
+        sides = [*(end for end, _ in terms), coupling["b"]]
+        ends = [place[at] for end in sides if (at := (end["gameObject"], end["component"])) in place]
+        if len(ends) < len(sides):
             continue
-        names = [joints[i]["label"].split(" – ")[0] for i in ends if i is not None]
-        text = f"{names[1]} = {coupling['ratio']:g} × {names[0]}"
+        *names, driven = [joints[i]["label"].split(" – ")[0] for i in ends]
+        text = f"{driven} = " + " + ".join(f"{ratio:g} × {name}" for (_, ratio), name in zip(terms, names))
         found.append({"kind": coupling.get("kind", "coupling"), "text": text, "joints": ends})
     return found
 

@@ -240,8 +240,28 @@ public sealed class WorldLinkTests
             Assert.That(world["L2"], Is.EqualTo(-0.5 * world["L1"]).Within(0.3));
         }
 
-        static JointCoordinate At(int link) => new() { GameObject = link, Component = 0, Coordinate = Coordinate.AngularX };
     }
+
+    /// <summary>A third link follows two others: six bodies in one row.</summary>
+    [TestCase(SolverKind.Unity)]
+    [TestCase(SolverKind.Exact)]
+    public void Step_LinkThatFollowsTwo_KeepsTheirSum(SolverKind solver)
+    {
+        ArticulationBody[] links = [LinkScene.Link(Revolute), LinkScene.Link(Revolute), LinkScene.Link(Revolute)];
+        SceneDocument document = LinkScene.Document(LinkScene.Base, links) with
+        {
+            Couplings = [new Coupling { B = At(3), Terms = [new CouplingTerm { Coordinate = At(1), Ratio = 0.5 }, new CouplingTerm { Coordinate = At(2), Ratio = -0.25 }] }],
+        };
+        World world = World.Create(LinkScene.Valid(document), solver);
+        world.Run(0.5);
+        using (Assert.EnterMultipleScope())
+        {
+            Assert.That(Math.Abs(world["L1"]), Is.GreaterThan(5));
+            Assert.That(world["L3"], Is.EqualTo(0.5 * world["L1"] - 0.25 * world["L2"]).Within(0.3));
+        }
+    }
+
+    private static JointCoordinate At(int link) => new() { GameObject = link, Component = 0, Coordinate = Coordinate.AngularX };
 
     [Test]
     public void Step_WithoutRows_AllocatesNothing()

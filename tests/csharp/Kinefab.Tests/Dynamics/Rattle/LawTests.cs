@@ -74,14 +74,37 @@ internal sealed class LawTests
         int two = b.Body(Vector3d.UnitX, Quaterniond.Identity, 1, new Vector3d(1, 1, 3));
         RevoluteJoint first = b.Hinge(JointModel.World, one, Vector3d.Zero, Vector3d.UnitZ);
         RevoluteJoint second = b.Hinge(JointModel.World, two, Vector3d.UnitX, Vector3d.UnitZ);
-        b.Add(new CoordinateCoupling(
-            new CoordinateAxisMap(first, CoordinateAxis.AngularX, 1), new CoordinateAxisMap(second, CoordinateAxis.AngularX, 1), -2, 0));
+        b.Couple(second, (first, -2));
         MultibodySystem m = b.Build();
         Run(m, 3, Dt, () => m.Bodies.Torques[0] = new Vector3d(0, 0, 1.3));
 
         // Both wheels on the first one's shaft: I = 1 + (-2)^2 3.
         Assert.That(m.Bodies.AngularVelocities[0].Z, Is.EqualTo(1.3 / 13 * 3).Within(1e-8));
         Assert.That(m.Bodies.AngularVelocities[1].Z, Is.EqualTo(-2 * 1.3 / 13 * 3).Within(1e-8));
+    }
+
+    [Test]
+    public void Coupling_OfTwoTerms_CarriesBothTorques()
+    {
+        var b = new MechanismBuilder { Gravity = Vector3d.Zero };
+        var hinges = new RevoluteJoint[3];
+        for (int i = 0; i < 3; i++)
+        {
+            int body = b.Body(Vector3d.UnitX * i, Quaterniond.Identity, 1, new Vector3d(1, 1, 1 + i));
+            hinges[i] = b.Hinge(JointModel.World, body, Vector3d.UnitX * i, Vector3d.UnitZ);
+        }
+
+        b.Couple(hinges[2], (hinges[0], -2), (hinges[1], 0.5));
+        MultibodySystem m = b.Build();
+        Run(m, 3, Dt, () => (m.Bodies.Torques[0], m.Bodies.Torques[1]) = (new Vector3d(0, 0, 1.3), new Vector3d(0, 0, -0.4)));
+
+        // w2 = -2 w0 + w1 / 2; the third wheel, I = 3, seen from the two others: M = [1 + 4 * 3, -3; -3, 2 + 3 / 4].
+        double determinant = 13 * 2.75 - 9;
+        double w0 = (2.75 * 1.3 + 3 * -0.4) / determinant * 3;
+        double w1 = (3 * 1.3 + 13 * -0.4) / determinant * 3;
+        Assert.That(m.Bodies.AngularVelocities[0].Z, Is.EqualTo(w0).Within(1e-8));
+        Assert.That(m.Bodies.AngularVelocities[1].Z, Is.EqualTo(w1).Within(1e-8));
+        Assert.That(m.Bodies.AngularVelocities[2].Z, Is.EqualTo(-2 * w0 + w1 / 2).Within(1e-8));
     }
 
     [TestCase(0.9, true)]

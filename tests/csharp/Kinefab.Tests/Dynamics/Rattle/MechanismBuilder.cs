@@ -68,7 +68,11 @@ internal sealed class MechanismBuilder
 
     public RevoluteJoint Hinge(int body0, int body1, Vector3d point, Vector3d axis) => Add(new RevoluteJoint(), body0, body1, point, axis);
 
-    public void Add(CoordinateCoupling coupling) => _couplings.Add(coupling);
+    /// <summary>A turn about X of a joint's frames follows those of others, each by its ratio.</summary>
+    public void Couple(JointModel driven, params (JointModel Joint, double Ratio)[] terms) =>
+        _couplings.Add(new CoordinateCoupling(Turn(driven), Array.ConvertAll(terms, term => (Turn(term.Joint), term.Ratio)), 0));
+
+    private static CoordinateAxisMap Turn(JointModel joint) => new(joint, CoordinateAxis.AngularX, 1);
 
     public MultibodySystem Build() => new(new Bodies(_bodies.ToArray()), _joints.ToArray(), _couplings.ToArray()) { Gravity = Gravity };
 

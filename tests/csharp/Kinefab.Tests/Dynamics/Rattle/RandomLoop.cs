@@ -119,7 +119,7 @@ internal sealed class RandomLoop
         int wheel = _builder.Body(point + axis * 0.1, Quaterniond.Identity, Mass(), new Vector3d(0.01, 0.012, 0.015));
         var own = new RevoluteJoint();
         _builder.Add(own, bar, wheel, point, axis);
-        _builder.Add(new CoordinateCoupling(new CoordinateAxisMap(hinge, CoordinateAxis.AngularX, 1), new CoordinateAxisMap(own, CoordinateAxis.AngularX, 1), 4 * Number() - 2, 0));
+        _builder.Couple(own, (hinge, 4 * Number() - 2));
     }
 
     // A hinge, joints of two or three angular freedoms, a hinge or a slide: one freedom or more.

@@ -172,7 +172,7 @@ internal sealed class RandomScene
         JointModel b = _joints[^1];
         if (a is RevoluteJoint && b is RevoluteJoint)
         {
-            _builder.Add(new CoordinateCoupling(new CoordinateAxisMap(a, CoordinateAxis.AngularX, 1), new CoordinateAxisMap(b, CoordinateAxis.AngularX, 1), 4 * Number() - 2, 0));
+            _builder.Couple(b, (a, 4 * Number() - 2));
         }
     }
 

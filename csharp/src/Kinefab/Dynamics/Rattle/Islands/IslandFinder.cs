@@ -24,11 +24,11 @@ internal static class IslandFinder
 
         foreach (CoordinateCoupling coupling in mechanism.Couplings)
         {
-            if (IsWhole(coupling))
+            for (int i = 0; coupling.IsWhole && i < coupling.Coordinates.Length; i++)
             {
-                Unite(coupling.A.Joint.Body0, coupling.A.Joint.Body1);
-                Unite(coupling.B.Joint.Body0, coupling.B.Joint.Body1);
-                Unite(AnyMoving(coupling.A.Joint), AnyMoving(coupling.B.Joint));
+                JointModel joint = coupling.Coordinates[i].Joint;
+                Unite(joint.Body0, joint.Body1);
+                Unite(AnyMovingOf(coupling), AnyMoving(joint));
             }
         }
 
@@ -59,8 +59,8 @@ internal static class IslandFinder
         for (int c = 0; c < mechanism.Couplings.Length; c++)
         {
             CoordinateCoupling coupling = mechanism.Couplings[c];
-            int body = Math.Max(AnyMoving(coupling.A.Joint), AnyMoving(coupling.B.Joint));
-            if (body >= 0 && IsWhole(coupling))
+            int body = AnyMovingOf(coupling);
+            if (body >= 0 && coupling.IsWhole)
             {
                 members[sets.Find(body)].Add(coupling, c);
             }
@@ -78,6 +78,17 @@ internal static class IslandFinder
 
         int AnyMoving(JointModel joint) => Moves(joint.Body0) ? joint.Body0 : Moves(joint.Body1) ? joint.Body1 : -1;
 
+        int AnyMovingOf(CoordinateCoupling coupling)
+        {
+            int body = -1;
+            foreach (CoordinateAxisMap coordinate in coupling.Coordinates)
+            {
+                body = Math.Max(body, AnyMoving(coordinate.Joint));
+            }
+
+            return body;
+        }
+
         void Unite(int a, int b)
         {
             if (Moves(a) && Moves(b))
@@ -88,8 +99,6 @@ internal static class IslandFinder
     }
 
     private static bool Holds(JointModel joint) => !joint.IsBroken && !joint.Layout().IsEmpty;
-
-    private static bool IsWhole(CoordinateCoupling coupling) => !coupling.A.Joint.IsBroken && !coupling.B.Joint.IsBroken;
 
     private sealed class Builder
     {
@@ -129,10 +138,10 @@ internal static class IslandFinder
         private RowBlock MakeNode(CoordinateCoupling coupling, int index)
         {
             var bodies = new List<int>();
-            var sides = new int[4];
+            var sides = new int[2 * coupling.Coordinates.Length];
             for (int i = 0; i < sides.Length; i++)
             {
-                JointModel joint = i < 2 ? coupling.A.Joint : coupling.B.Joint;
+                JointModel joint = coupling.Coordinates[i / 2].Joint;
                 int slot = Slot(i % 2 == 0 ? joint.Body0 : joint.Body1);
                 sides[i] = bodies.IndexOf(slot);
                 if (sides[i] < 0)

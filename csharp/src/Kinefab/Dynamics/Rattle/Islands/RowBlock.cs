@@ -53,7 +53,7 @@ internal sealed class RowBlock
     /// <summary>Index in the mechanism's joints or couplings.</summary>
     public readonly int Index;
 
-    /// <summary>Bodies in the island, no two the same: actor 0 and 1 of a joint, up to four of a coupling.</summary>
+    /// <summary>Bodies in the island, no two the same: actor 0 and 1 of a joint, of a coupling those of all its joints.</summary>
     public readonly int[] Bodies;
 
     /// <summary>Locked linear axes of frame 0 as a bit mask; 7 is written in the world's axes instead.</summary>
@@ -81,7 +81,7 @@ internal sealed class RowBlock
     /// <summary>Whether it is an anchor (all linear axes locked) with angular rows in closed form and nothing else, as a hinge is.</summary>
     public readonly bool IsPointJoint;
 
-    /// <summary>For a coupling, which of Bodies are actor 0 and 1 of its first joint and of its second.</summary>
+    /// <summary>For a coupling, which of Bodies are actor 0 and 1 of the joint of each of its coordinates.</summary>
     public readonly int[] CouplingSides = System.Array.Empty<int>();
 
     public RowBlock(JointModel joint, int index, int[] bodies)

@@ -76,7 +76,13 @@ internal struct ScalarRow
     /// </summary>
     public double Allowed;
 
-    /// <summary>Speed of the row at the start of the step.</summary>
+    /// <summary>
+    /// Whether a limit is not reached at the start of the step, or has no row there, as in the middle of a cone: the drift is not held by it,
+    /// and where it reaches it, see Substep, the joint strikes.
+    /// </summary>
+    public bool IsApart;
+
+    /// <summary>Speed of the row at the start of the step; in an impact, before it.</summary>
     public double StartSpeed;
 
     public double Theta;
@@ -111,7 +117,8 @@ internal struct ScalarRow
     public int Index;
 
     /// <summary>What the row is to the step that begins at the pose where it was written.</summary>
-    public readonly RowKind FindKind()
+    /// <param name="reach">C up to which a soft limit counts as reached, m or rad.</param>
+    public readonly RowKind FindKind(double reach)
     {
         if (!IsActive)
         {
@@ -121,7 +128,7 @@ internal struct ScalarRow
         if (Built.Has(RowFlags.Spring))
         {
             bool isIdle = Built.Stiffness == 0 && Built.Damping == 0;
-            return isIdle || (Built.Has(RowFlags.Limit) && StartError >= 0) ? RowKind.None : RowKind.Spring;
+            return isIdle || (Built.Has(RowFlags.Limit) && StartError > reach) ? RowKind.None : RowKind.Spring;
         }
 
         return Built.Has(RowFlags.Limit) ? RowKind.Limit : RowKind.SpeedMotor;

@@ -52,8 +52,8 @@ internal sealed partial class ActiveSet<V>
     }
 
     /// <summary>
-    /// Whether the end of the drift passed a hard limit: one that had no row at its start, of a distance or cone in the middle; or one whose
-    /// row no impulse could hold.
+    /// Whether the end of the drift passed a hard limit that it was to hold: one that had no row at its start, of a distance or cone in the
+    /// middle; or one whose row no impulse could hold.
     /// </summary>
     public bool HasMissedEvent(double tolerance)
     {
@@ -61,7 +61,7 @@ internal sealed partial class ActiveSet<V>
         {
             ref ScalarRow scalar = ref _rows[i];
             double allowed = scalar.IsActive ? scalar.Allowed : 0;
-            if (scalar.HasEnd && scalar.End.Has(RowFlags.Limit) && !scalar.End.Has(RowFlags.Spring) && scalar.End.GeometricError - allowed < -MostPassed * tolerance)
+            if (!scalar.IsApart && scalar.HasEnd && IsHardLimit(scalar.End) && scalar.End.GeometricError - allowed < -MostPassed * tolerance)
             {
                 return true;
             }
@@ -115,7 +115,7 @@ internal sealed partial class ActiveSet<V>
         switch (scalar.Kind)
         {
             case RowKind.Limit:
-                return scalar.End.GeometricError - scalar.Allowed < -tolerance;
+                return !scalar.IsApart && scalar.End.GeometricError - scalar.Allowed < -tolerance;
             case RowKind.SpeedMotor:
                 double excess = DriftSpeed(scalar) - scalar.Built.VelocityTarget;
                 return (scalar.ImpulseFirstHalf >= high && excess > tolerance) || (scalar.ImpulseFirstHalf <= low && excess < -tolerance);

@@ -40,7 +40,7 @@ internal sealed partial class ActiveSet<V>
 
                     break;
                 default:
-                    scalar.State = scalar.Built.GeometricError - scalar.Allowed <= tolerance ? RowState.Free : RowState.AtBound;
+                    scalar.State = !scalar.IsApart && scalar.Built.GeometricError - scalar.Allowed <= tolerance ? RowState.Free : RowState.AtBound;
                     break;
             }
         }
@@ -94,7 +94,7 @@ internal sealed partial class ActiveSet<V>
                     isChanged = true;
                 }
             }
-            else if (scalar.Kind == RowKind.Limit && scalar.Built.GeometricError - scalar.Allowed <= tolerance
+            else if (scalar.Kind == RowKind.Limit && !scalar.IsApart && scalar.Built.GeometricError - scalar.Allowed <= tolerance
                 && Impulses<V>.Speed(_batch, scalar.Block, scalar.Built) < TargetSpeed(scalar) - tolerance)
             {
                 scalar.State = RowState.Free;

@@ -23,6 +23,9 @@ internal sealed partial class ActiveSet<V>
     // A compliance beyond this share of the row's response stands for a spring that hardly acts.
     private const double LeastResponse = 1e-200;
 
+    /// <summary>A limit this many tolerances away counts as reached.</summary>
+    public const double Reach = 10;
+
     /// <summary>A limit that is passed by less at a step's start is the drift's to close, m or rad; one by more, that closing the pose left there, stays.</summary>
     public const double MostClosedByDrift = 1e-6;
 
@@ -36,6 +39,9 @@ internal sealed partial class ActiveSet<V>
         _scalars = scalars;
         _rows = scalars.Rows;
     }
+
+    /// <summary>Whether limits that a drift has to reach first are left to Substep, or held from the start of the step on.</summary>
+    public bool LocatesEvents { get; set; }
 
     /// <summary>
     /// Whether the matrix is still the drift's: the projection before it held the same rows, and no spring is to act.
@@ -53,8 +59,9 @@ internal sealed partial class ActiveSet<V>
 
     /// <summary>Takes the scalar rows' constants for a step from the rows at the start pose, guesses states, writes J.</summary>
     /// <param name="h">Step, s.</param>
+    /// <param name="tolerance">Largest C, metres or radians.</param>
     /// <param name="isImplicit">Whether the whole impulse acts before the drift (implicit Euler).</param>
-    public void Begin(double h, bool isImplicit)
+    public void Begin(double h, double tolerance, bool isImplicit)
     {
         for (int i = 0; i < _rows.Length; i++)
         {
@@ -64,9 +71,10 @@ internal sealed partial class ActiveSet<V>
             scalar.ImpulseSecondHalf = 0;
             scalar.PendingImpulse = 0;
             scalar.Theta = isImplicit ? 1 : 0.5;
-            scalar.Kind = scalar.FindKind();
+            scalar.Kind = scalar.FindKind(SoftReach(scalar, h, tolerance));
+            scalar.IsApart = LocatesEvents && (!scalar.IsActive || (scalar.Built.Has(RowFlags.Limit) && scalar.StartError > Reach * tolerance));
             scalar.Allowed = scalar.Kind == RowKind.Limit && scalar.StartError < -MostClosedByDrift ? scalar.StartError : 0;
-            if (scalar.Kind == RowKind.None)
+            if (scalar.Kind == RowKind.None || scalar.IsApart)
             {
                 scalar.State = RowState.AtBound;
                 scalar.ImpulseFirstHalf = 0;
@@ -130,15 +138,17 @@ internal sealed partial class ActiveSet<V>
     }
 
     /// <summary>Holds the hard limits that are passed where the rows were last built, and nothing else; writes their J and C.</summary>
-    public void ActivateViolated()
+    /// <param name="keepsAllowed">Whether a limit may stand passed as far as it was left so.</param>
+    public void ActivateViolated(bool keepsAllowed)
     {
         for (int i = 0; i < _rows.Length; i++)
         {
             ref ScalarRow scalar = ref _rows[i];
             scalar.Kind = scalar.IsActive && scalar.Built.Has(RowFlags.Limit) && !scalar.Built.Has(RowFlags.Spring) ? RowKind.Limit : RowKind.None;
-            bool isPassed = scalar.Kind == RowKind.Limit && scalar.Built.GeometricError < 0;
+            double error = scalar.Built.GeometricError - (keepsAllowed ? scalar.Allowed : 0);
+            bool isPassed = scalar.Kind == RowKind.Limit && error < 0;
             scalar.State = isPassed ? RowState.Free : RowState.AtBound;
-            _batch.Work.Error[scalar.Index] = isPassed ? scalar.Built.GeometricError : 0;
+            _batch.Work.Error[scalar.Index] = isPassed ? error : 0;
         }
 
         WriteRows(false);
@@ -185,6 +195,26 @@ internal sealed partial class ActiveSet<V>
         }
 
         return false;
+    }
+
+    /// <summary>Which of the rows may be to blame where no step is found from the pose that is built.</summary>
+    /// <param name="reach">C up to which a limit counts as reached, m or rad.</param>
+    public StepTroubles Troubles(double reach)
+    {
+        // Unity's own "no limit" is the largest float, 3.4e38.
+        const double endless = 1e30;
+        StepTroubles found = StepTroubles.None;
+        for (int i = 0; i < _rows.Length; i++)
+        {
+            ref readonly ConstraintRow row = ref _rows[i].Built;
+            bool isEndless = row.Has(RowFlags.Drive) && Math.Max(row.Maximum, -row.Minimum) > endless;
+            found |= !_rows[i].IsActive ? StepTroubles.None
+                : IsHardLimit(row) && row.GeometricError <= reach ? StepTroubles.Limit
+                : isEndless ? StepTroubles.EndlessDrive
+                : StepTroubles.None;
+        }
+
+        return found;
     }
 
     /// <summary>The next row, from one on, of a limit that stands passed and cannot be closed; -1: there is none.</summary>
@@ -239,6 +269,30 @@ internal sealed partial class ActiveSet<V>
         }
 
         _scalars.IsFactored = true;
+    }
+
+    // Where events are not located, a soft limit that the step will reach acts from its start on, by the pose at its end.
+    private double SoftReach(in ScalarRow scalar, double h, double tolerance)
+    {
+        const double margin = 1.5;
+        bool isSoft = scalar.IsActive && scalar.Built.Has(RowFlags.Limit | RowFlags.Spring);
+        return isSoft && !LocatesEvents ? Math.Max(Reach * tolerance, -margin * h * StartSpeed(scalar)) : Reach * tolerance;
+    }
+
+    /// <summary>Adds the compliance of springs times a vector to J M^-1 J^T times it; rows at their bounds stay as they are.</summary>
+    public void AddCompliance(double[] vector, double[] product, bool isDrift)
+    {
+        for (int i = 0; i < _rows.Length; i++)
+        {
+            ref ScalarRow scalar = ref _rows[i];
+            int k = scalar.Index;
+            product[k] = scalar.ProjectedAs switch
+            {
+                ProjectedAs.Inactive => vector[k],
+                ProjectedAs.Rigid => product[k],
+                _ => product[k] + vector[k] / (isDrift ? scalar.Theta * scalar.ImplicitDamping : scalar.CorrectionGain),
+            };
+        }
     }
 
     private double StartSpeed(in ScalarRow scalar) => Impulses<V>.Speed(_batch, scalar.Block, scalar.Built);

@@ -18,7 +18,7 @@ internal static class AssembledRows<V>
         int row = batch.Shape.Pattern.Rows[n];
         if (block.Coupling != null)
         {
-            batch.Work.Error[row] = Couple(batch, block, out _, out _);
+            batch.Work.Error[row] = Couple(batch, block);
             return;
         }
 
@@ -99,9 +99,11 @@ internal static class AssembledRows<V>
         {
             if (block.Coupling != null)
             {
-                Couple(batch, block, out ConstraintRow a, out ConstraintRow b);
-                block.Coupling.LastA = a.GeometricError;
-                block.Coupling.LastB = b.GeometricError;
+                Couple(batch, block);
+                for (int i = 0; i < block.Coupling.Last.Length; i++)
+                {
+                    block.Coupling.Last[i] = block.Coupling.Rows[i].GeometricError;
+                }
             }
             else if (block.ScalarCount > 0)
             {
@@ -122,30 +124,32 @@ internal static class AssembledRows<V>
     private static bool IsLoneAngle(RowBlock block, in ConstraintRow row) =>
         block.Angular == AngularForm.Prepared && row.Hint == SolveHint.Equality && row.Has(RowFlags.Angular);
 
-    private static double Couple(LaneRecords<V> batch, RowBlock block, out ConstraintRow rowA, out ConstraintRow rowB)
+    private static double Couple(LaneRecords<V> batch, RowBlock block)
     {
         int[] sides = block.CouplingSides;
-        return block.Coupling!.Prepare(
-            PoseOf(batch, block.Bodies[sides[0]]),
-            PoseOf(batch, block.Bodies[sides[1]]),
-            PoseOf(batch, block.Bodies[sides[2]]),
-            PoseOf(batch, block.Bodies[sides[3]]),
-            out rowA,
-            out rowB);
+        CoordinateCoupling coupling = block.Coupling!;
+        double sum = 0;
+        for (int i = 0; i < coupling.Coordinates.Length; i++)
+        {
+            sum += coupling.Evaluate(i, PoseOf(batch, block.Bodies[sides[2 * i]]), PoseOf(batch, block.Bodies[sides[2 * i + 1]]));
+        }
+
+        return sum - coupling.Offset;
     }
 
-    // J = row of B - ratio times row of A, added up on the bodies that both joints touch.
+    // J = sum of factor times row, added up on the bodies that several joints touch.
     private static void BuildCoupling(LaneRecords<V> batch, int n, RowBlock block)
     {
-        Couple(batch, block, out ConstraintRow a, out ConstraintRow b);
+        Couple(batch, block);
         int first = batch.Row(n, 0, 0);
         Array.Clear(batch.Linear, first, 3 * block.Bodies.Length);
         Array.Clear(batch.Angular, first, 3 * block.Bodies.Length);
-        double ratio = block.Coupling!.Ratio;
-        Add(batch, n, block.CouplingSides[0], a.Linear0, a.Angular0, -ratio);
-        Add(batch, n, block.CouplingSides[1], a.Linear1, a.Angular1, ratio);
-        Add(batch, n, block.CouplingSides[2], b.Linear0, b.Angular0, 1);
-        Add(batch, n, block.CouplingSides[3], b.Linear1, b.Angular1, -1);
+        CoordinateCoupling coupling = block.Coupling!;
+        for (int i = 0; i < coupling.Rows.Length; i++)
+        {
+            Add(batch, n, block.CouplingSides[2 * i], coupling.Rows[i].Linear0, coupling.Rows[i].Angular0, coupling.Factors[i]);
+            Add(batch, n, block.CouplingSides[2 * i + 1], coupling.Rows[i].Linear1, coupling.Rows[i].Angular1, -coupling.Factors[i]);
+        }
     }
 
     private static void Add(LaneRecords<V> batch, int n, int side, Vector3d linear, Vector3d angular, double factor)

@@ -1,3 +1,4 @@
+using System;
 using System.Runtime.CompilerServices;
 using Kinefab.Numerics;
 
@@ -14,6 +15,9 @@ namespace Kinefab.Dynamics.Rattle;
 internal static class FreeMotion<V>
     where V : struct, ILane<V>
 {
+    // Largest error of a quaternion's square.
+    private const double MostStretch = 1e-3;
+
     /// <summary>Moves all moving bodies from X, Q to EndX, EndQ and fills R; and W with their mean rates, where scalar rows need them.</summary>
     public static void Drift(LaneRecords<V> batch, double h)
     {
@@ -72,6 +76,27 @@ internal static class FreeMotion<V>
             q.Store(a, o + BodyLanes.EndQ * w);
             q.StoreMatrix(a, o + BodyLanes.R * w);
         }
+    }
+
+    /// <summary>Whether all turns of the last drift were narrow enough for the series: one too wide leaves a quaternion that is none. On the only lane.</summary>
+    public static bool HasFollowed(LaneRecords<V> batch)
+    {
+        for (int body = 0; body < batch.Shape.MovingBodies; body++)
+        {
+            int o = LaneRecords<V>.Body(body, 0);
+            double square = 0;
+            for (int i = BodyLanes.EndQ; i < BodyLanes.EndQ + 4; i++)
+            {
+                square += batch.Bodies[o + i] * batch.Bodies[o + i];
+            }
+
+            if (!(Math.Abs(square - 1) < MostStretch))
+            {
+                return false;
+            }
+        }
+
+        return true;
     }
 
     [MethodImpl(MethodImplOptions.NoInlining)]

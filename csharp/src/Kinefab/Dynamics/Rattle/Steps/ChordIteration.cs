@@ -78,7 +78,8 @@ internal static class ChordIteration<V>
     /// <param name="h">Step, s.</param>
     /// <param name="isFirst">Whether no correction of the same matrix went before.</param>
     /// <param name="impulses">To which the move is added.</param>
-    public static void Correct(LaneBatch<V> batch, double h, bool isFirst, double[] impulses)
+    /// <param name="exact">Solves without the matrix's compliance; null: by the factor alone.</param>
+    public static void Correct(LaneBatch<V> batch, double h, bool isFirst, double[] impulses, ConjugateGradient? exact = null)
     {
         int w = Lane<V>.Width;
         double[] d = batch.Work.Solution;
@@ -92,7 +93,15 @@ internal static class ChordIteration<V>
             (rate * Lane<V>.Load(errors, i)).Store(d, i);
         }
 
-        BlockCholesky<V>.Solve(batch.Shape.Pattern, batch.Matrix, d);
+        if (exact == null)
+        {
+            BlockCholesky<V>.Solve(batch.Shape.Pattern, batch.Matrix, d);
+        }
+        else
+        {
+            exact.Solve(true);
+        }
+
         Lane<V> product = Lane<V>.Splat(0);
         Lane<V> square = Lane<V>.Splat(LeastSquare);
         if (!isFirst)

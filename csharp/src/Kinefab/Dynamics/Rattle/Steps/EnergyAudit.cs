@@ -72,6 +72,26 @@ internal readonly struct EnergyAudit
         return isKnown;
     }
 
+    /// <summary>Slows the bodies down until energy has not grown since by more than drives can have given.</summary>
+    public void Dampen(LaneBatch<ScalarLane> batch, in EnergyAudit since)
+    {
+        double gain = _kinetic + _stored - since._kinetic - since._stored - (_work - since._work) - (_sprung - since._sprung) - _driven;
+        if (!(gain > 0) || !(_kinetic > 0))
+        {
+            return;
+        }
+
+        double share = Math.Sqrt(Math.Max(0, 1 - gain / _kinetic));
+        for (int body = 0; body < batch.Shape.MovingBodies; body++)
+        {
+            int o = LaneBatch<ScalarLane>.Body(body, BodyLanes.V);
+            for (int i = 0; i < 6; i++)
+            {
+                batch.Bodies[o + i] *= share;
+            }
+        }
+    }
+
     /// <summary>
     /// Whether energy less work changed since by no more than a share of what moves, and rounding. Where it may be lost, as
     /// to scalar rows, whether it grew by no more than that and what drives can have given.

@@ -49,7 +49,7 @@ internal sealed class ImplicitEulerStep
         ActiveSet<ScalarLane>? scalars = batch.ActiveSet;
         batch.Work.Active[0] = 1;
         batch.CompliantStep = 0;
-        scalars?.Begin(h, true);
+        scalars?.Begin(h, tolerance, true);
         RattleStep<ScalarLane>.Kick(batch, h);
         Read(_aim);
         Array.Clear(batch.Work.PositionImpulses, 0, batch.Work.PositionImpulses.Length);

@@ -1,3 +1,4 @@
+using System;
 using Kinefab.Numerics;
 
 namespace Kinefab.Dynamics.Rattle;
@@ -9,17 +10,60 @@ namespace Kinefab.Dynamics.Rattle;
 /// </summary>
 internal static class InitialVelocityProjection
 {
+    /// <summary>Speed of a locked row that counts as forbidden, m/s or rad/s.</summary>
+    public const double MostForbidden = 1e-6;
+
+    /// <summary>The locked row with the largest speed, or -1 where none is forbidden.</summary>
+    /// <param name="batch">Built at the start pose.</param>
+    /// <param name="speed">Its speed, m/s or rad/s.</param>
+    public static int Find(LaneBatch<ScalarLane> batch, out double speed)
+    {
+        int worst = -1;
+        speed = MostForbidden;
+        if (batch.Scalars != null)
+        {
+            // The rows' responses come with the matrix.
+            RattleStep<ScalarLane>.Factor(batch, false);
+            batch.Scalars.Invalidate();
+        }
+
+        Impulses<ScalarLane>.NegativeSpeeds(batch);
+        for (int n = 0; n < batch.Shape.Blocks.Length; n++)
+        {
+            int first = batch.Shape.Pattern.Rows[n];
+            for (int i = first; i < first + batch.Shape.Blocks[n].BilateralCount; i++)
+            {
+                if (Math.Abs(batch.Work.Solution[i]) > speed)
+                {
+                    worst = i;
+                    speed = Math.Abs(batch.Work.Solution[i]);
+                }
+            }
+        }
+
+        return worst;
+    }
+
     /// <summary>Projects the momenta on what the rigid rows allow.</summary>
     /// <param name="batch">Built at the start pose; factored for the drift again where there are no scalar rows.</param>
-    public static void Apply(LaneBatch<ScalarLane> batch)
+    /// <param name="exact">Solves without the matrix's compliance.</param>
+    public static void Apply(LaneBatch<ScalarLane> batch, ConjugateGradient exact)
     {
         double[] blow = batch.Work.Solution;
         batch.Work.Active[0] = 1;
         batch.ActiveSet?.Deactivate();
         RattleStep<ScalarLane>.Factor(batch, false);
         Impulses<ScalarLane>.NegativeSpeeds(batch);
-        batch.ActiveSet?.ClearAtBound(blow);
-        BlockCholesky<ScalarLane>.Solve(batch.Shape.Pattern, batch.Matrix, blow);
+        if (batch.Shape.Loops == LoopConsistency.Exact)
+        {
+            exact.Solve(false);
+        }
+        else
+        {
+            batch.ActiveSet?.ClearAtBound(blow);
+            BlockCholesky<ScalarLane>.Solve(batch.Shape.Pattern, batch.Matrix, blow);
+        }
+
         Impulses<ScalarLane>.Apply(batch, blow);
         for (int i = 0; i < blow.Length; i++)
         {

@@ -24,13 +24,16 @@ internal sealed class PositionProjection
     private const double MostTurn = 0.5;
 
     private readonly LaneBatch<ScalarLane> _batch;
+    private readonly ConjugateGradient _exact;
     private readonly double[] _start;
 
     // Velocities and angular momenta, whose place the moves take.
     private readonly double[] _momenta;
+    private bool _keepsAllowed;
 
-    public PositionProjection(LaneBatch<ScalarLane> batch)
+    public PositionProjection(LaneBatch<ScalarLane> batch, ConjugateGradient exact)
     {
+        _exact = exact;
         _batch = batch;
         _start = new double[7 * batch.Shape.MovingBodies];
         _momenta = new double[6 * batch.Shape.MovingBodies];
@@ -83,6 +86,25 @@ internal sealed class PositionProjection
         return isClosed;
     }
 
+    /// <summary>
+    /// Moves the bodies from the end of a drift to the nearest closed pose, their speeds turned with them; the rows are to be built there. False,
+    /// with all as it was, when it does not close.
+    /// </summary>
+    /// <param name="tolerance">Largest C, m or rad.</param>
+    public bool TryCloseEnd(double tolerance)
+    {
+        SaveStart();
+        _keepsAllowed = true;
+        bool isClosed = Iterate(tolerance);
+        _keepsAllowed = false;
+        for (int body = 0; body < _batch.Shape.MovingBodies; body++)
+        {
+            Finish(body, isClosed);
+        }
+
+        return isClosed;
+    }
+
     private bool Iterate(double tolerance)
     {
         double least = double.PositiveInfinity;
@@ -118,7 +140,7 @@ internal sealed class PositionProjection
         DelassusMatrix<ScalarLane>.InverseInertias(_batch);
         BilateralRows<ScalarLane>.Evaluate(_batch);
         BilateralRows<ScalarLane>.Build(_batch);
-        _batch.ActiveSet?.ActivateViolated();
+        _batch.ActiveSet?.ActivateViolated(_keepsAllowed);
         for (int n = 0; n < _batch.Shape.Blocks.Length; n++)
         {
             MeasureRotations(n, _batch.Shape.Blocks[n]);
@@ -170,7 +192,16 @@ internal sealed class PositionProjection
             solution[i] = -_batch.Work.Error[i];
         }
 
-        BlockCholesky<ScalarLane>.Solve(shape.Pattern, _batch.Matrix, solution);
+        if (_keepsAllowed)
+        {
+            _exact.Solve(false);
+        }
+        else
+        {
+            // Far from closed, rows that repeat each other differ by more than the compliance.
+            BlockCholesky<ScalarLane>.Solve(shape.Pattern, _batch.Matrix, solution);
+        }
+
         double[] a = _batch.Bodies;
         for (int body = 0; body < shape.MovingBodies; body++)
         {

@@ -15,6 +15,7 @@ internal static class RattleStep<V>
 {
     /// <summary>Iterations after which a step counts as failed.</summary>
     public const int MaxIterations = 12;
+    private const int MaxExactIterations = 40;
 
     /// <summary>Kick, impulses and drift, until the lanes that are active at the call have a closed end pose.</summary>
     /// <param name="batch">Built and factored at the start pose.</param>
@@ -23,7 +24,8 @@ internal static class RattleStep<V>
     /// <param name="converged">Set for each lane.</param>
     /// <param name="isEager">Rows with a scalar row keep to their bounds in every iteration instead of at its end alone: dearer, but
     /// rows that contradict each other give way before the drift is led astray.</param>
-    public static void KickAndDrift(LaneBatch<V> batch, double h, double tolerance, bool[] converged, bool isEager = false)
+    /// <param name="exact">Solves for each correction without the matrix's compliance, as long as it takes; null: by the factor alone.</param>
+    public static void KickAndDrift(LaneBatch<V> batch, double h, double tolerance, bool[] converged, bool isEager = false, ConjugateGradient? exact = null)
     {
         int w = Lane<V>.Width;
         for (int lane = 0; lane < w; lane++)
@@ -32,7 +34,7 @@ internal static class RattleStep<V>
         }
 
         batch.CompliantStep = batch.Shape.IsInconsistent ? h : 0;
-        batch.ActiveSet?.Begin(h, false);
+        batch.ActiveSet?.Begin(h, tolerance, false);
         Kick(batch, h / 2);
         Array.Copy(batch.VelocityImpulses, batch.Work.PositionImpulses, batch.VelocityImpulses.Length);
         Impulses<V>.Apply(batch, batch.Work.PositionImpulses);
@@ -58,7 +60,7 @@ internal static class RattleStep<V>
             bool isDone = true;
             for (int lane = 0; lane < w; lane++)
             {
-                if (batch.Work.Active[lane] != 0 && ChordIteration<V>.IsClosed(batch, lane, tolerance, iteration > restart))
+                if (batch.Work.Active[lane] != 0 && ChordIteration<V>.IsClosed(batch, lane, tolerance, iteration > restart && exact == null))
                 {
                     batch.Work.Active[lane] = 0;
                     converged[lane] = true;
@@ -82,18 +84,18 @@ internal static class RattleStep<V>
             {
                 return;
             }
-            else if (iteration - restart == MaxIterations || ChordIteration<V>.IsHopeless(batch, iteration == restart))
+            else if (iteration - restart == (exact == null ? MaxIterations : MaxExactIterations) || ChordIteration<V>.IsHopeless(batch, iteration == restart))
             {
                 return;
             }
 
-            ChordIteration<V>.Correct(batch, h, iteration == restart, batch.Work.PositionImpulses);
+            ChordIteration<V>.Correct(batch, h, iteration == restart, batch.Work.PositionImpulses, exact);
             while (isEager && batch.ActiveSet != null && batch.ActiveSet.ClampToBounds())
             {
                 Array.Clear(batch.Work.Error, 0, batch.Work.Error.Length);
                 Factor(batch, true);
                 ReleaseAtBound(batch, h, batch.ActiveSet);
-                ChordIteration<V>.Correct(batch, h, true, batch.Work.PositionImpulses);
+                ChordIteration<V>.Correct(batch, h, true, batch.Work.PositionImpulses, exact);
                 restart = iteration;
             }
         }

@@ -11,7 +11,7 @@ internal sealed class Snapshot
     private readonly double[] _total;
     private readonly WarmStart[] _scalars;
 
-    // LastTwist of each block's joint, or both coordinates of its coupling.
+    // LastTwist of each block's joint, or all coordinates of its coupling.
     private readonly double[] _angles;
 
     public Snapshot(LaneBatch<ScalarLane> batch)
@@ -20,7 +20,13 @@ internal sealed class Snapshot
         _half = new double[batch.VelocityImpulses.Length];
         _total = new double[batch.VelocityImpulses.Length];
         _scalars = new WarmStart[batch.Shape.ScalarCount];
-        _angles = new double[2 * batch.Shape.Blocks.Length];
+        int angles = 0;
+        foreach (RowBlock block in batch.Shape.Blocks)
+        {
+            angles += block.Coupling?.Last.Length ?? 1;
+        }
+
+        _angles = new double[angles];
     }
 
     public void Save(LaneBatch<ScalarLane> batch)
@@ -29,11 +35,18 @@ internal sealed class Snapshot
         Array.Copy(batch.VelocityImpulses, _half, _half.Length);
         Array.Copy(batch.Work.TotalImpulses, _total, _total.Length);
         batch.Scalars?.Save(_scalars);
-        for (int n = 0; n < batch.Shape.Blocks.Length; n++)
+        int at = 0;
+        foreach (RowBlock block in batch.Shape.Blocks)
         {
-            RowBlock block = batch.Shape.Blocks[n];
-            _angles[2 * n] = block.Coupling?.LastA ?? block.Joint!.LastTwist;
-            _angles[2 * n + 1] = block.Coupling?.LastB ?? 0;
+            if (block.Coupling != null)
+            {
+                block.Coupling.Last.CopyTo(_angles, at);
+                at += block.Coupling.Last.Length;
+            }
+            else
+            {
+                _angles[at++] = block.Joint!.LastTwist;
+            }
         }
     }
 
@@ -42,17 +55,17 @@ internal sealed class Snapshot
         Array.Copy(_bodies, batch.Bodies, _bodies.Length);
         Array.Copy(_half, batch.VelocityImpulses, _half.Length);
         Array.Copy(_total, batch.Work.TotalImpulses, _total.Length);
-        for (int n = 0; n < batch.Shape.Blocks.Length; n++)
+        int at = 0;
+        foreach (RowBlock block in batch.Shape.Blocks)
         {
-            RowBlock block = batch.Shape.Blocks[n];
             if (block.Coupling != null)
             {
-                block.Coupling.LastA = _angles[2 * n];
-                block.Coupling.LastB = _angles[2 * n + 1];
+                Array.Copy(_angles, at, block.Coupling.Last, 0, block.Coupling.Last.Length);
+                at += block.Coupling.Last.Length;
             }
             else
             {
-                block.Joint!.LastTwist = _angles[2 * n];
+                block.Joint!.LastTwist = _angles[at++];
             }
         }
 

@@ -11,9 +11,6 @@ namespace Kinefab.Dynamics.Rattle;
 internal static class VelocityProjection<V>
     where V : struct, ILane<V>
 {
-    // A limit this many tolerances away counts as reached.
-    private const double LimitReach = 10;
-
     // Speed that the compliance may leave a row, by the step: a small share of what gravity gives, m/s^2 and rad/s^2.
     private const double MostLeft = 3e-3;
 
@@ -23,12 +20,14 @@ internal static class VelocityProjection<V>
     /// <param name="batch">At the end of its drift.</param>
     /// <param name="h">Step, s; 0 without a kick.</param>
     /// <param name="tolerance">Largest C, metres or radians.</param>
-    public static void Run(LaneBatch<V> batch, double h, double tolerance)
+    /// <param name="exact">On the only lane: solves for what the compliance leaves; null: by iteration.</param>
+    public static void Run(LaneBatch<V> batch, double h, double tolerance, ConjugateGradient? exact = null)
     {
         RattleStep<V>.Kick(batch, h / 2);
         if (batch.ActiveSet != null)
         {
-            RunWithActiveSet(batch, h, tolerance, batch.ActiveSet);
+            batch.ActiveSet.BeginVelocities(tolerance * ActiveSet<V>.Reach);
+            RunWithActiveSet(batch, h, tolerance, batch.ActiveSet, exact);
             return;
         }
 
@@ -41,12 +40,39 @@ internal static class VelocityProjection<V>
         BlockCholesky<V>.Solve(batch.Shape.Pattern, batch.Matrix, batch.Work.Solution);
         Copy(batch, batch.Work.Solution, batch.VelocityImpulses);
         Impulses<V>.Apply(batch, batch.VelocityImpulses);
-        Refine(batch, h);
+        Refine(batch, h, exact);
     }
 
-    private static void RunWithActiveSet(LaneBatch<V> batch, double h, double tolerance, ActiveSet<V> scalars)
+    /// <summary>
+    /// The blow of the limits that the drift came to, after <see cref="Run"/>; leaves its impulses in place of the projection's. False when it
+    /// came to none.
+    /// </summary>
+    public static bool Strike(LaneBatch<V> batch, double tolerance, ConjugateGradient? exact)
     {
-        scalars.BeginVelocities(tolerance * LimitReach);
+        if (batch.ActiveSet == null || !batch.ActiveSet.BeginImpact(tolerance * ActiveSet<V>.Reach))
+        {
+            return false;
+        }
+
+        RunWithActiveSet(batch, 0, tolerance, batch.ActiveSet, exact);
+        return true;
+    }
+
+    /// <summary>Makes the momenta tangent where the rows are built, with nothing thrown back; leaves its impulses.</summary>
+    public static void Rest(LaneBatch<V> batch, double tolerance, ConjugateGradient? exact)
+    {
+        if (batch.ActiveSet == null)
+        {
+            Run(batch, 0, tolerance, exact);
+            return;
+        }
+
+        batch.ActiveSet.BeginRest(tolerance * ActiveSet<V>.Reach);
+        RunWithActiveSet(batch, 0, tolerance, batch.ActiveSet, exact);
+    }
+
+    private static void RunWithActiveSet(LaneBatch<V> batch, double h, double tolerance, ActiveSet<V> scalars, ConjugateGradient? exact)
+    {
         int length = batch.Shape.Pattern.RowCount;
         for (int n = 0; n < batch.Shape.Blocks.Length; n++)
         {
@@ -65,19 +91,25 @@ internal static class VelocityProjection<V>
             }
 
             Impulses<V>.Apply(batch, batch.Work.Solution);
-            if (!scalars.UpdateVelocities(pass, tolerance * LimitReach))
+            if (!scalars.UpdateVelocities(pass, tolerance * ActiveSet<V>.Reach))
             {
-                Refine(batch, h);
+                Refine(batch, h, exact);
                 return;
             }
         }
     }
 
     // A loop that is not exact has no speeds but those that its rows' compliance leaves.
-    private static void Refine(LaneBatch<V> batch, double h)
+    private static void Refine(LaneBatch<V> batch, double h, ConjugateGradient? exact)
     {
         if (!batch.Shape.IsRedundant || batch.Shape.Loops != LoopConsistency.Exact || !IsAnyLeft(batch, h * MostLeft))
         {
+            return;
+        }
+
+        if (exact != null)
+        {
+            RefineAlone(batch, exact);
             return;
         }
 
@@ -102,6 +134,23 @@ internal static class VelocityProjection<V>
         }
 
         active.Store(batch.Work.Active, 0);
+    }
+
+    private static void RefineAlone(LaneBatch<V> batch, ConjugateGradient exact)
+    {
+        double[] solution = batch.Work.Solution;
+        for (int pass = 0; pass < 2; pass++)
+        {
+            Impulses<V>.NegativeSpeeds(batch);
+            batch.ActiveSet?.AddTargets();
+            exact.Solve(false);
+            for (int i = 0; i < solution.Length; i++)
+            {
+                batch.VelocityImpulses[i] += solution[i];
+            }
+
+            Impulses<V>.Apply(batch, solution);
+        }
     }
 
     // Of the first solution; marks the lanes.

@@ -74,12 +74,9 @@ def filters(
         ignored: dict[str, list[str]] = {}
         for prim in found.collision_groups:
             own = prim.GetPath()
-            others = [o for o in table.GetGroups() if not table.IsCollisionEnabled(own, o)]
-            ignored[str(own)[1:]] = [str(o)[1:] for o in others]
-            if others:
-                report.approximated(
-                    f"collision group {str(own)[1:]}", "USD_COLLISION_FILTER", opened.place(prim)
-                )
+            ignored[str(own)[1:]] = [
+                str(o)[1:] for o in table.GetGroups() if not table.IsCollisionEnabled(own, o)
+            ]
         extras["collisionGroups"] = ignored
     return extras
 

@@ -5,14 +5,14 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 
 from ....diagnostics import Report
-from ....model import Scene
-from ...filtering import ignored_groups, ignored_pairs
+from ....model import Scene, ignored_groups
+from ...filtering import ignored_pairs, tell_colliding
 from ..prims import Prim
 
 
 def write_groups(scope: Prim, members: Mapping[str, Sequence[str]], scene: Scene) -> None:
     """members: for each group the paths of its colliders."""
-    ignored = ignored_groups(members, scene)
+    ignored = ignored_groups(members, scene.extras)
     prims = {name: scope.child(name, "PhysicsCollisionGroup", name) for name in sorted(members)}
     for name, prim in prims.items():
         prim.tell_source(name)
@@ -24,6 +24,7 @@ def write_groups(scope: Prim, members: Mapping[str, Sequence[str]], scene: Scene
 
 def write_pairs(scene: Scene, prims: Sequence[Prim], report: Report, target: str) -> None:
     """prims: of each node.  What names no node is told."""
+    tell_colliding(scene, report, target)
     pairs, unknown = ignored_pairs(scene)
     for told in unknown:
         report.dropped(

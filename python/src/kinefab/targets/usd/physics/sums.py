@@ -1,8 +1,7 @@
 """Couplings of several terms, for mimics, which follow one coordinate each: light links whose motions add up.
 
 Of ``q = r1 q1 + r2 q2`` a light link turns by r1 q1 on body a of the coupling's joint, and its body b on that link by r2 q2.
-Unlike the light bodies of a ``.kinefab`` (``unity/sums``) all of it are hinges or slides, which an articulation can have; the
-coupling's own joint, with its range and drive, closes the loop.
+All of it are hinges or slides, which an articulation can have; the coupling's own joint, with its range and drive, closes the loop.
 """
 
 from __future__ import annotations
@@ -19,7 +18,7 @@ from ....model import RX, TX, Coupling, Dynamics, Joint, JointKind, MassProperti
 from ....rigid import RigidGroups
 from ....spatial import Pose
 from ....unity.bodies.rigidbodies import body_mass
-from ....unity.sums import SHARE
+from ....unity.counting import SHARE
 from ...content import Content
 from .couplings import standing
 

@@ -113,7 +113,7 @@ class Glyphs {
     return { joint, base, rider, knob };
   }
   tie(coupling) {
-    const made = line([new THREE.Vector3(), new THREE.Vector3()], 0x9c36b5);
+    const made = line(coupling.joints.slice(1).flatMap(() => [new THREE.Vector3(), new THREE.Vector3()]), 0x9c36b5);
     made.frustumCulled = false;
     this.stage.overlay.add(made);
     return { coupling, made };
@@ -149,7 +149,8 @@ class Glyphs {
         return Frame.point(this.mechanism.displaced[joint.b], [joint.atB[3], joint.atB[7], joint.atB[11]]);
       });
       const place = made.geometry.attributes.position;
-      ends.forEach((p, i) => place.setXYZ(i, ...p));
+      const driven = ends.pop();
+      ends.flatMap((p) => [p, driven]).forEach((p, i) => place.setXYZ(i, ...p));
       place.needsUpdate = true;
     }
     this.stage.draw();

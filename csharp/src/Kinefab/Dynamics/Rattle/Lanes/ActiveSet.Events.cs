@@ -1,0 +1,147 @@
+using System;
+using Kinefab.Joints;
+using Kinefab.Numerics;
+
+namespace Kinefab.Dynamics.Rattle;
+
+/// <content>Hard limits that the joint comes to on its way: how far they are, and the blow when they are reached.</content>
+internal sealed partial class ActiveSet<V>
+    where V : struct, ILane<V>
+{
+    // Speed, m/s or rad/s, against which a row's is nothing.
+    private const double Least = 1e-10;
+
+    /// <summary>The least C at the end of the drift of the limits, hard and soft, that were not reached at its start, m or rad; infinite without one.</summary>
+    public double NearestApart()
+    {
+        double least = double.PositiveInfinity;
+        for (int i = 0; i < _rows.Length; i++)
+        {
+            ref ScalarRow scalar = ref _rows[i];
+            bool isOne = scalar.IsApart && scalar.HasEnd && scalar.End.Has(RowFlags.Limit);
+            least = isOne ? Math.Min(least, scalar.End.GeometricError) : least;
+        }
+
+        return least;
+    }
+
+    /// <summary>The same at its start, of those that have a row there.</summary>
+    public double NearestApartAtStart()
+    {
+        double least = double.PositiveInfinity;
+        for (int i = 0; i < _rows.Length; i++)
+        {
+            ref ScalarRow scalar = ref _rows[i];
+            least = scalar.IsApart && scalar.IsActive ? Math.Min(least, scalar.StartError) : least;
+        }
+
+        return least;
+    }
+
+    /// <summary>
+    /// At the end pose, with momenta that satisfy all other rows: holds the limits that are reached there, each with its speed before the blow.
+    /// Springs and motors of finite force give nothing in no time. False when the drift came to no limit.
+    /// </summary>
+    /// <param name="reach">C up to which a limit counts as reached, m or rad.</param>
+    public bool BeginImpact(double reach)
+    {
+        bool isAny = false;
+        for (int i = 0; i < _rows.Length; i++)
+        {
+            ref ScalarRow scalar = ref _rows[i];
+            isAny |= scalar.IsApart && scalar.IsActive && IsHardLimit(scalar.Built) && scalar.Built.GeometricError <= reach;
+        }
+
+        for (int i = 0; i < _rows.Length && isAny; i++)
+        {
+            ref ScalarRow scalar = ref _rows[i];
+            _batch.VelocityImpulses[scalar.Index] = 0;
+            scalar.ImpulseSecondHalf = 0;
+            bool isLimit = scalar.IsActive && IsHardLimit(scalar.Built);
+            if (isLimit)
+            {
+                scalar.Kind = RowKind.Limit;
+                scalar.IsApart = false;
+                scalar.ImpulseFirstHalf = 0;
+                scalar.StartSpeed = StartSpeed(scalar);
+                scalar.State = scalar.Built.GeometricError - scalar.Allowed <= reach ? RowState.Free : RowState.AtBound;
+            }
+            else if (scalar.Kind != RowKind.SpeedMotor || !double.IsInfinity(scalar.Low) || !double.IsInfinity(scalar.High))
+            {
+                scalar.State = RowState.AtBound;
+            }
+        }
+
+        return isAny;
+    }
+
+    /// <summary>As <see cref="BeginImpact"/> without a blow: limits that are reached are left at rest, whatever the joint came with.</summary>
+    public void BeginRest(double reach)
+    {
+        for (int i = 0; i < _rows.Length; i++)
+        {
+            ref ScalarRow scalar = ref _rows[i];
+            scalar.Kind = scalar.FindKind(0);
+            scalar.IsApart = false;
+            scalar.ImpulseFirstHalf = 0;
+            scalar.ImpulseSecondHalf = 0;
+            scalar.StartSpeed = 0;
+            scalar.CorrectionGain = 0;
+            _batch.VelocityImpulses[scalar.Index] = 0;
+            scalar.State = scalar.Kind == RowKind.Limit && scalar.Built.GeometricError - scalar.Allowed <= reach ? RowState.Free : RowState.AtBound;
+        }
+    }
+
+    /// <summary>
+    /// Adds to the right-hand side at the start pose the speeds that the free rows shall have: a limit may be reached within the step, a motor's is
+    /// its own, a spring's what its impulse leaves it.
+    /// </summary>
+    public void AddStepTargets(double h)
+    {
+        for (int i = 0; i < _rows.Length; i++)
+        {
+            ref ScalarRow scalar = ref _rows[i];
+            _batch.Work.Solution[scalar.Index] = scalar.State == RowState.AtBound ? 0 : _batch.Work.Solution[scalar.Index] + scalar.Kind switch
+            {
+                RowKind.Limit => -Math.Max(0, scalar.StartError) / h,
+                RowKind.SpeedMotor => scalar.Built.VelocityTarget,
+                _ => (scalar.RestImpulse - _batch.Work.PositionImpulses[scalar.Index]) / scalar.ImplicitDamping,
+            };
+        }
+    }
+
+    /// <summary>After a solve with them: moves rows that left their state; true when one had to.</summary>
+    public bool UpdateStep(double h, int pass)
+    {
+        bool isChanged = false;
+        for (int i = 0; i < _rows.Length && pass < MaxPasses && !(isChanged && pass >= FreePasses); i++)
+        {
+            ref ScalarRow scalar = ref _rows[i];
+            scalar.PendingImpulse = 0;
+            if (scalar.Kind == RowKind.None)
+            {
+                continue;
+            }
+
+            scalar.ImpulseFirstHalf = _batch.Work.PositionImpulses[scalar.Index];
+            if (scalar.State == RowState.Free)
+            {
+                isChanged |= ClampToBounds(ref scalar);
+                continue;
+            }
+
+            double speed = StartSpeed(scalar);
+            double slack = Least * (1 + Math.Abs(scalar.StartSpeed));
+            double wanted = scalar.Kind == RowKind.Spring ? (scalar.RestImpulse - scalar.ImpulseFirstHalf) / scalar.ImplicitDamping - speed : scalar.Built.VelocityTarget - speed;
+            bool leaves = scalar.Kind == RowKind.Limit
+                ? speed + Math.Max(0, scalar.StartError) / h < -slack
+                : (scalar.ImpulseFirstHalf >= scalar.High && wanted < -slack) || (scalar.ImpulseFirstHalf <= scalar.Low && wanted > slack);
+            scalar.State = leaves ? RowState.Free : scalar.State;
+            isChanged |= leaves;
+        }
+
+        return isChanged;
+    }
+
+    private static bool IsHardLimit(in ConstraintRow row) => row.Has(RowFlags.Limit) && !row.Has(RowFlags.Spring);
+}

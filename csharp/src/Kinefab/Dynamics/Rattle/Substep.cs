@@ -1,0 +1,301 @@
+using System;
+using Kinefab.Numerics;
+
+namespace Kinefab.Dynamics.Rattle;
+
+/// <summary>
+/// One part of a step of one island, tried by a method. RATTLE finds the moment at which a limit is reached on the way, ends a piece of
+/// the part there with a blow, and goes on with the rest, so that it stays of second order and passes no limit unseen.
+/// </summary>
+internal sealed class Substep
+{
+    // Blows in a part, after which the rest of it is taken at once, limits held from its start on, as where a body rattles in a gap.
+    private const int MaxBlows = 12;
+
+    private const int MaxTrials = 40;
+
+    // C of a limit, in tolerances, at which it is reached.
+    private const double MostPassed = 1;
+    private const double MostShort = 5;
+
+    // A piece shorter than this share of the part says little of the impulses of the rest.
+    private const double LeastTelling = 0.25;
+
+    // Where a limit is passed within this share of a part, the pose was not what the drift began from.
+    private const double LeastPiece = 1e-12;
+
+    private readonly LaneBatch<ScalarLane> _batch;
+    private readonly ImplicitEulerStep _implicit;
+    private readonly ConjugateGradient _exact;
+    private readonly ProjectedStep _projected;
+    private readonly Snapshot _pieceStart;
+    private readonly double[] _guess;
+    private readonly bool[] _converged = new bool[1];
+    private double _length;
+    private double _guessLength;
+
+    public Substep(LaneBatch<ScalarLane> batch, ConjugateGradient exact)
+    {
+        _batch = batch;
+        _implicit = new ImplicitEulerStep(batch);
+        _exact = exact;
+        _projected = new ProjectedStep(batch, _exact);
+        _pieceStart = new Snapshot(batch);
+        _guess = new double[batch.VelocityImpulses.Length];
+    }
+
+    /// <summary>Whether rows keep to their bounds in every iteration, see <see cref="RattleStep{V}.KickAndDrift"/>.</summary>
+    public bool IsEager { get; set; }
+
+    /// <summary>The impulses that were loaded are those of parts of this length.</summary>
+    public void Begin(double h) => _length = h;
+
+    /// <summary>Impulses are proportional to the part's length; the guess is scaled to it.</summary>
+    public void SetLength(double h)
+    {
+        if (_length > 0 && _length != h)
+        {
+            double factor = h / _length;
+            for (int i = 0; i < _batch.VelocityImpulses.Length; i++)
+            {
+                _batch.VelocityImpulses[i] *= factor;
+            }
+
+            _batch.Scalars?.ScaleHistory(factor);
+        }
+
+        _length = h;
+    }
+
+    /// <summary>RATTLE from the start pose, blow by blow; what a failure leaves is for the caller to restore.</summary>
+    public bool TryRattle(double h, double tolerance)
+    {
+        ActiveSet<ScalarLane>? scalars = _batch.ActiveSet;
+        if (scalars == null)
+        {
+            _pieceStart.Save(_batch);
+            return TryDriftFromPieceStart(h, tolerance) && Complete(h, h, tolerance);
+        }
+
+        SetLength(h);
+        double left = h;
+        for (int blows = 0; ; blows++)
+        {
+            scalars.LocatesEvents = blows < MaxBlows;
+            _pieceStart.Save(_batch);
+            Array.Copy(_batch.VelocityImpulses, _guess, _guess.Length);
+            _guessLength = _length;
+            if (!TryDriftFromPieceStart(left, tolerance))
+            {
+                return false;
+            }
+
+            double nearest = scalars.NearestApart();
+            if (nearest >= -MostPassed * tolerance)
+            {
+                return Complete(left, h, tolerance);
+            }
+
+            if (!TryReach(left, nearest, tolerance, out double piece) || !Complete(piece, h, tolerance))
+            {
+                return false;
+            }
+
+            left -= piece;
+            if (!(left > 0))
+            {
+                return true;
+            }
+
+            SetLength(left);
+        }
+    }
+
+    /// <summary>Implicit Euler from the start pose.</summary>
+    public bool TryImplicitEuler(double h, double tolerance)
+    {
+        if (_batch.ActiveSet != null)
+        {
+            _batch.ActiveSet.LocatesEvents = false;
+        }
+
+        if (!_implicit.TrySolve(h, tolerance) || (_batch.ActiveSet != null && _batch.ActiveSet.HasMissedEvent(tolerance)))
+        {
+            return false;
+        }
+
+        _batch.ActiveSet?.AddWork();
+        RattleStep<ScalarLane>.Build(_batch);
+        GeometricStiffness<ScalarLane>.Estimate(_batch, _batch.Work.PositionImpulses, h);
+        _batch.Work.Active[0] = 1;
+        VelocityProjection<ScalarLane>.Run(_batch, 0, tolerance, _exact);
+        Finish();
+
+        // What implicit Euler leaves behind is no guess for RATTLE.
+        Array.Clear(_batch.VelocityImpulses, 0, _batch.VelocityImpulses.Length);
+        return IsFinite();
+    }
+
+    // A guess can be worse than none: a damper's impulse, or what came before a blow, told of another motion.
+    private bool TryDriftFromPieceStart(double h, double tolerance)
+    {
+        if (TryDrift(h, tolerance))
+        {
+            return true;
+        }
+
+        _pieceStart.Restore(_batch);
+        Array.Clear(_batch.VelocityImpulses, 0, _batch.VelocityImpulses.Length);
+        _batch.Scalars?.ClearHistory();
+        return TryDrift(h, tolerance, IsExact ? _exact : null);
+    }
+
+    // A loop that was rounded, held to the letter, is braked or stirred up.
+    private bool IsExact => _batch.Shape.Loops == LoopConsistency.Exact;
+
+    private bool TryDrift(double h, double tolerance, ConjugateGradient? exact = null)
+    {
+        _batch.Work.Active[0] = 1;
+        RattleStep<ScalarLane>.KickAndDrift(_batch, h, tolerance, _converged, IsEager, exact);
+        return _converged[0] && (_batch.ActiveSet == null || !_batch.ActiveSet.HasMissedEvent(tolerance));
+    }
+
+    /// <summary>A <see cref="ProjectedStep"/> from the start pose.</summary>
+    public bool TryProjected(double h, double tolerance)
+    {
+        if (_batch.ActiveSet != null)
+        {
+            _batch.ActiveSet.LocatesEvents = false;
+        }
+
+        if (!IsExact || !_projected.TrySolve(h, tolerance))
+        {
+            return false;
+        }
+
+        Finish();
+        Array.Clear(_batch.VelocityImpulses, 0, _batch.VelocityImpulses.Length);
+        return IsFinite();
+    }
+
+    // The drift as long as leads to the first limit on its way: the least C of those that are apart, by the Illinois rule of false position
+    // with a bisection whenever three trials have not halved the bracket.
+    private bool TryReach(double longest, double passed, double tolerance, out double piece)
+    {
+        double early = 0;
+        double late = longest;
+        double before = _batch.ActiveSet!.NearestApartAtStart();
+        before = double.IsInfinity(before) ? -passed : before;
+        double after = passed;
+        int side = 0;
+        double bracket = longest;
+        for (int trial = 0; trial < MaxTrials; trial++)
+        {
+            bool isSlow = trial % 3 == 2 && late - early > bracket / 2;
+            bracket = trial % 3 == 2 ? late - early : bracket;
+            piece = isSlow ? (early + late) / 2 : early + (late - early) * (before / (before - after));
+            if (!(piece > early && piece < late) || late < LeastPiece * longest)
+            {
+                break;
+            }
+
+            _pieceStart.Restore(_batch);
+            Begin(_guessLength);
+            SetLength(piece);
+            if (!TryDriftFromPieceStart(piece, tolerance))
+            {
+                return false;
+            }
+
+            double nearest = _batch.ActiveSet.NearestApart();
+            if (nearest >= -MostPassed * tolerance && nearest <= MostShort * tolerance)
+            {
+                return true;
+            }
+
+            if (nearest < 0)
+            {
+                late = piece;
+                after = nearest;
+                before = side < 0 ? before / 2 : before;
+                side = -1;
+            }
+            else
+            {
+                early = piece;
+                before = double.IsInfinity(nearest) ? before : nearest;
+                after = side > 0 ? after / 2 : after;
+                side = 1;
+            }
+        }
+
+        piece = 0;
+        return false;
+    }
+
+    // Ends a piece of a part whose drift has arrived.
+    private bool Complete(double h, double part, double tolerance)
+    {
+        _batch.ActiveSet?.AddWork();
+        RattleStep<ScalarLane>.Build(_batch);
+        _batch.Work.Active[0] = 1;
+        VelocityProjection<ScalarLane>.Run(_batch, h, tolerance, _exact);
+        Finish();
+        if (_batch.ActiveSet == null)
+        {
+            GeometricStiffness<ScalarLane>.Estimate(_batch, _batch.VelocityImpulses, h / 2);
+            return IsFinite();
+        }
+
+        if (h >= LeastTelling * part)
+        {
+            GeometricStiffness<ScalarLane>.Estimate(_batch, _batch.VelocityImpulses, h / 2);
+            Array.Copy(_batch.VelocityImpulses, _guess, _guess.Length);
+            _guessLength = h;
+        }
+
+        if (VelocityProjection<ScalarLane>.Strike(_batch, tolerance, _exact))
+        {
+            Accumulate(_batch.VelocityImpulses);
+        }
+
+        // A blow is no guess for what comes.
+        Array.Copy(_guess, _batch.VelocityImpulses, _guess.Length);
+        Begin(_guessLength);
+
+        return IsFinite();
+    }
+
+    private void Finish()
+    {
+        RattleStep<ScalarLane>.Accept(_batch);
+        AssembledRows<ScalarLane>.FinishAngles(_batch);
+        Accumulate(_batch.Work.PositionImpulses);
+        Accumulate(_batch.VelocityImpulses);
+    }
+
+    private void Accumulate(double[] impulses)
+    {
+        for (int i = 0; i < impulses.Length; i++)
+        {
+            _batch.Work.TotalImpulses[i] += impulses[i];
+        }
+    }
+
+    private bool IsFinite()
+    {
+        for (int body = 0; body < _batch.Shape.MovingBodies; body++)
+        {
+            int o = LaneBatch<ScalarLane>.Body(body, 0);
+            for (int i = 0; i < BodyLanes.EndX; i++)
+            {
+                if (!(Math.Abs(_batch.Bodies[o + i]) < 1e100))
+                {
+                    return false;
+                }
+            }
+        }
+
+        return FreeMotion<ScalarLane>.HasFollowed(_batch);
+    }
+}

@@ -1,0 +1,78 @@
+"""What stands on the ground: bases, which joints tie something to, and scenery, with which everything that moves collides."""
+
+from __future__ import annotations
+
+from collections.abc import Collection
+from dataclasses import dataclass
+
+from ...model import NodeKind, Scene
+from ...rigid import RigidGroups
+
+
+@dataclass(frozen=True, slots=True)
+class Standing:
+    """holder: for each node the node whose own kinematic Rigidbody holds it on the ground; None for what moves, and for what the
+    Rigidbody of the ground itself holds.
+    bases: for each node that a joint ties to something that moves, the holders of all that is rigid with it other than by the ground.
+    """
+
+    holder: tuple[int | None, ...]
+    bases: dict[int, tuple[int | None, ...]]
+
+
+def find_standing(scene: Scene, groups: RigidGroups, touched: Collection[int]) -> Standing:
+    """Unity lets nothing collide with the whole Rigidbody that a joint connects it to, so each holds one base alone.
+
+    One base is the ground's own: the largest of which nothing stands in another, where nothing is joined to the world itself.
+    touched: the nodes that have colliders.
+    """
+    named, to_world = _named(scene, groups)
+    partners = {groups.standing[node] for node in named}
+    kept = set[int | None]() if to_world else _kept(scene, groups, partners)
+    kept_nodes: list[bool] = []
+    holder: list[int | None] = []
+    for i, (own, node) in enumerate(zip(groups.standing, scene.nodes)):
+        above = node.parent
+        built_on = (  # what stands below a part in the tree is built onto it
+            above is not None and kept_nodes[above] and scene.nodes[above].kind is NodeKind.PART and own not in partners
+        )
+        kept_nodes.append(own is not None and (own in kept or built_on))
+        carried = None if above is None else holder[above]
+        if own is None or kept_nodes[i] or not (named or to_world):
+            holder.append(None)
+        elif carried is not None and (own not in partners or own == groups.standing[carried]):
+            holder.append(carried)
+        else:
+            holder.append(i if i in touched or i in named else None)
+    held: dict[int | None, dict[int | None, None]] = {}
+    for i, own in enumerate(groups.standing):
+        if own in partners and (holder[i] is not None or kept_nodes[i]):
+            held.setdefault(own, {})[holder[i]] = None
+    return Standing(tuple(holder), {node: tuple(held[groups.standing[node]]) for node in named})
+
+
+def _named(scene: Scene, groups: RigidGroups) -> tuple[set[int], bool]:
+    """Nodes on the ground that joints tie to something that moves, and whether one ties such a thing to the world itself."""
+    found, to_world = set[int](), False
+    for joint in scene.joints:
+        for own, other in ((joint.a, joint.b), (joint.b, joint.a)):
+            if groups.is_ground(own) and not groups.is_ground(other):
+                to_world |= own is None
+                found |= set() if own is None else {own}
+    return found, to_world
+
+
+def _kept(scene: Scene, groups: RigidGroups, partners: Collection[int | None]) -> set[int | None]:
+    """The base that the ground holds, with what stands above it, as a Rigidbody there would take it along; by what each is rigid with."""
+    size: dict[int | None, int] = {}
+    above: dict[int | None, set[int | None]] = {own: {own} for own in partners}
+    for own in groups.standing:
+        size[own] = size.get(own, 0) + 1
+    for own in partners:
+        for i in range(len(scene.nodes) - 1, -1, -1):
+            parent = scene.nodes[i].parent
+            if parent is not None and groups.standing[i] in above[own] and groups.standing[parent] is not None:
+                above[own].add(groups.standing[parent])
+    alone = [own for own in partners if not above[own] & set(partners) - {own}]
+    largest = min(alone, key=lambda own: (-size[own], -1 if own is None else own), default=None)
+    return set() if largest is None else above[largest]

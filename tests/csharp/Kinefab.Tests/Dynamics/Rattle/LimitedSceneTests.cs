@@ -1,0 +1,115 @@
+using System;
+using System.Collections.Concurrent;
+using System.Collections.Generic;
+using System.Globalization;
+using System.Threading;
+using System.Threading.Tasks;
+using Kinefab.Dynamics;
+using Kinefab.Dynamics.Rattle;
+using Kinefab.Joints;
+using NUnit.Framework;
+
+namespace Kinefab.Tests.Dynamics.Rattle;
+
+/// <summary>
+/// What is asked of every scene that has a motion: closed, no limit passed, no energy from nothing, no stop. KINEFAB_SCENES sets how many
+/// scenes are run, KINEFAB_FIRST_SCENE the first seed.
+/// </summary>
+internal sealed class LimitedSceneTests
+{
+    private const int Steps = 20;
+    private const double MostOpen = 1e-8;
+    private const double MostPassed = 2e-8;
+    private const double MostGain = 1e-3;
+    private const double MostStopped = 0.05;
+
+    [Test]
+    public void Step_ScenesThatRunIntoLimits_StayTrue()
+    {
+        int count = Setting("KINEFAB_SCENES", 150);
+        int first = Setting("KINEFAB_FIRST_SCENE", 0);
+        var faults = new ConcurrentQueue<string>();
+        var stopped = new ConcurrentQueue<int>();
+        int gained = 0;
+        Parallel.For(first, first + count, seed =>
+        {
+            var scene = new LimitedScene(seed);
+            MultibodySystem m = scene.System;
+            var solver = new RattleSolver(m, new List<InconsistentLoop>());
+            double highest = double.PositiveInfinity, lowest = 0, largest = 0, gain = 0;
+            for (int i = 1; i <= Steps; i++)
+            {
+                scene.Drive(i * scene.Step);
+                solver.Step(scene.Step);
+                bool isBroken = Array.Exists(m.Joints, joint => joint.IsBroken);
+                if (!MechanismMeasures.IsFinite(m) || (!isBroken && MechanismMeasures.Drift(m) > MostOpen) || (Passed(m) > MostPassed && m.HeldLimits.Count == 0 && m.Stops == 0))
+                {
+                    faults.Enqueue($"seed {seed}, step {i}: open by {MechanismMeasures.Drift(m)} m, limits passed by {Passed(m)}");
+                    return;
+                }
+
+                double energy = scene.Energy();
+                (lowest, highest) = i == 1 ? (energy, energy) : (Math.Min(lowest, energy), highest);
+                largest = Math.Max(largest, Math.Max(MechanismMeasures.Kinetic(m) + MechanismMeasures.FallEnergy(m, 2 * scene.Step), energy - lowest));
+                gain = scene.IsPassive ? Math.Max(gain, (energy - highest) / largest) : 0;
+                highest = Math.Max(highest, energy);
+            }
+
+            if (m.Stops > 0 || m.HeldLimits.Count > 0)
+            {
+                stopped.Enqueue(seed);
+            }
+
+            if (gain > MostGain)
+            {
+                Interlocked.Increment(ref gained);
+                TestContext.Progress.WriteLine($"seed {seed}: energy grew by {gain} of the largest");
+            }
+        });
+        TestContext.Progress.WriteLine($"{count} scenes: {stopped.Count} stopped ({string.Join(' ', stopped)}), {gained} gained energy");
+        Assert.That(faults, Is.Empty);
+        Assert.That((double)stopped.Count / count, Is.LessThanOrEqualTo(MostStopped));
+        Assert.That((double)gained / count, Is.LessThanOrEqualTo(MostStopped));
+    }
+
+    /// <summary>The same seed gives the same bits, whatever ran before.</summary>
+    [Test]
+    public void Step_Twice_GivesTheSameBits([Range(0, 10)] int seed)
+    {
+        Assert.That(Bits(seed), Is.EqualTo(Bits(seed)));
+
+        static ulong Bits(int seed)
+        {
+            var scene = new LimitedScene(seed);
+            var solver = new RattleSolver(scene.System, new List<InconsistentLoop>());
+            for (int i = 1; i <= Steps; i++)
+            {
+                scene.Drive(i * scene.Step);
+                solver.Step(scene.Step);
+            }
+
+            return MechanismMeasures.Bits(scene.System);
+        }
+    }
+
+    // The farthest that a hard limit is passed, m or rad.
+    private static double Passed(MultibodySystem m)
+    {
+        double most = 0;
+        Span<ConstraintRow> rows = stackalloc ConstraintRow[JointModel.MaxRows];
+        foreach (JointModel joint in m.Joints)
+        {
+            int count = joint.IsBroken ? 0 : joint.PrepareForces(m.Bodies.PoseOf(joint.Body0), m.Bodies.PoseOf(joint.Body1), rows);
+            for (int i = 0; i < count; i++)
+            {
+                bool isHard = rows[i].Has(RowFlags.Limit) && !rows[i].Has(RowFlags.Spring);
+                most = isHard ? Math.Max(most, -rows[i].GeometricError) : most;
+            }
+        }
+
+        return most;
+    }
+
+    private static int Setting(string name, int otherwise) =>
+        int.TryParse(Environment.GetEnvironmentVariable(name), NumberStyles.Integer, CultureInfo.InvariantCulture, out int value) ? value : otherwise;
+}

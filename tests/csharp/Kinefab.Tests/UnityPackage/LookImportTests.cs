@@ -1,0 +1,149 @@
+using System;
+using System.Collections.Generic;
+using System.IO;
+using System.Linq;
+using System.Text.Json.Nodes;
+using KinefabUnity;
+using NUnit.Framework;
+using Unity = UnityEngine;
+
+namespace Kinefab.Tests.UnityPackage;
+
+/// <summary>Textures, layers and tags of an import; that they are the prefab's own, PrefabTests see.</summary>
+[NonParallelizable]
+public sealed class LookImportTests
+{
+    private const string Textured = "../tests/conformance/valid/look/textured.kinefab";
+
+    [Test]
+    public void Textures_AreSubAssetsOneForEachUse()
+    {
+        using var scene = new EditedScene(Textured);
+        ImportedAsset asset = ImportedAsset.Of(scene.Scene);
+        Assert.That(asset.Context.Errors, Is.Empty);
+        Assert.That(asset.Identifiers("textures"), Is.EquivalentTo(new[]
+        {
+            "textures/tiles.png|color|clamp", "textures/tiles.png|color|repeat", "textures/bumps.png|normal|mirror", "textures/Tiles|mask|bumps.png|repeat",
+        }));
+        Assert.That(Texture(asset, "tiles.png|color|clamp").IsLinear, Is.False);
+        Assert.That(Texture(asset, "bumps.png|normal|mirror").IsLinear, Is.True);
+    }
+
+    // glTF's green is roughness and its blue metallic; the material's own factors are 0.125 and 0.75.
+    [Test]
+    public void Mask_HoldsMetallicOcclusionAndSmoothnessWithTheFactors()
+    {
+        using var scene = new EditedScene(Textured);
+        ImportedAsset asset = ImportedAsset.Of(scene.Scene);
+        Unity.Color32[] from = Texture(asset, "tiles.png|color|repeat").GetPixels32(), to = Texture(asset, "Tiles|mask|bumps.png|repeat").GetPixels32();
+        Assert.That(from.Distinct().Count(), Is.GreaterThan(1));
+        Assert.That(to.Select(p => (p.r, p.g, p.b, p.a)), Is.EqualTo(from.Select(p => ((byte)Math.Round(0.125 * p.b), p.r, (byte)0, (byte)Math.Round(255 - 0.25 * p.g)))));
+    }
+
+    [Test]
+    public void Identifiers_OfTexturesAndMaterials_DependOnNoOrder()
+    {
+        using var scene = new EditedScene(Textured);
+        scene.Save(json =>
+        {
+            // Another material and image of the same names, apart by what they hold.
+            JsonNode more = json["materials"]![0]!.DeepClone(), image = json["images"]![0]!.DeepClone();
+            image["data"]!["offset"] = 0;
+            image["mediaType"] = "image/x-other";
+            json["images"]!.AsArray().Add(image);
+            more["metallic"] = 0.5;
+            more["colorTexture"]!["image"] = 2;
+            json["materials"]!.AsArray().Add(more);
+            JsonNode two = json["gameObjects"]![0]!.DeepClone();
+            (two["id"], two["name"]) = ("b", "B");
+            two["components"]![1]!["materials"] = new JsonArray(1);
+            json["gameObjects"]!.AsArray().Add(two);
+        });
+        string[] before = Told(ImportedAsset.Of(scene.Scene));
+        Assert.That(before, Has.Length.EqualTo(before.Distinct().Count()));
+        scene.Save(json =>
+        {
+            JsonNode[] materials = [.. json["materials"]!.AsArray().Select(m => m!.DeepClone()).Reverse()];
+            json["materials"] = new JsonArray(materials);
+            foreach (JsonNode? entry in json["gameObjects"]!.AsArray())
+                entry!["components"]![1]!["materials"]![0] = 1 - (int)entry["components"]![1]!["materials"]![0]!;
+        });
+        Assert.That(Told(ImportedAsset.Of(scene.Scene)), Is.EqualTo(before));
+    }
+
+    [Test]
+    public void Image_ThatUnityCannotRead_IsToldAndTheMaterialStays()
+    {
+        using var scene = new EditedScene(Textured);
+        scene.Save(json => json["images"]![0]!["byteLength"] = 20);
+        ImportedAsset asset = ImportedAsset.Of(scene.Scene);
+        Assert.That(asset.Source.Findings.Where(f => f.code == "TEXTURE_NOT_WRITTEN").Select(f => f.place), Is.EquivalentTo(new[] { "color texture of material Tiles", "emission texture of material Tiles" }));
+        Assert.That(asset.Identifiers("materials"), Has.Exactly(1).Items);
+        Assert.That(asset.Context.Objects.Values.OfType<Unity.Material>().Single().GetTexture("_BumpMap"), Is.Not.Null);
+        Assert.That(asset.Context.Objects.Values.OfType<Unity.Texture2D>().Count(), Is.EqualTo(2), "none of what is not there");
+    }
+
+    [Test]
+    public void NormalMap_WithAlpha_HasNoneInUnity()
+    {
+        using var scene = new EditedScene(Textured);
+        Assert.That(Texture(ImportedAsset.Of(scene.Scene), "bumps.png|normal|mirror").GetPixels32().Select(p => p.a), Is.All.EqualTo(255));
+    }
+
+    [Test]
+    public void Losses_OfTheShader_AreTold()
+    {
+        using var scene = new EditedScene(Textured);
+        string[] told = [.. ImportedAsset.Of(scene.Scene).Source.Findings.Where(f => f.code == "TARGET_FIELD_DROPPED").Select(f => f.place)];
+        Assert.That(told, Is.SupersetOf(new[]
+        {
+            "doubleSided of material Tiles", "uvSet of color texture of material Tiles", "rotation of color texture of material Tiles",
+            "its own scale and offset of normal texture of material Tiles", "the colours of vertices of mesh triangle",
+        }));
+        using RenderPipelines hdrp = RenderPipelines.Use("hdrp");
+        string[] less = [.. ImportedAsset.Of(scene.Scene).Source.Findings.Where(f => f.code == "TARGET_FIELD_DROPPED").Select(f => f.place)];
+        Assert.That(less, Has.None.StartsWith("doubleSided").And.None.Contains("scale and offset of emission"));
+    }
+
+    [Test]
+    public void LayerAndTag_AreTheProjectsOrAreTold()
+    {
+        using var scene = new EditedScene();
+        scene.Save(json =>
+        {
+            json["version"] = "1.1";
+            for (int i = 0; i < 3; i++)
+                (scene.Objects[i]!["layer"], scene.Objects[i]!["tag"]) = (i < 2 ? "Robots" : "Water", i < 1 ? "Player" : "Gripper");
+        });
+        ImportedAsset lacking = ImportedAsset.Of(scene.Scene);
+        Assert.That(lacking.Context.Errors, Is.Empty);
+        Assert.That(lacking.Context.Warnings.Where(w => w.Contains("UNITY_LAYER_OR_TAG_MISSING", StringComparison.Ordinal)), Has.Exactly(2).Items.And.Some.Contains("no layer Robots, which 2 object(s)").And.Some.Contains("no tag Gripper, which 2 object(s)"));
+        Assert.That(LayersAndTags(lacking), Is.EquivalentTo(new[] { (4, "Untagged"), (0, "Player") }));
+        Unity.LayerMask.Layers.Add("Robots");
+        Unity.GameObject.Tags.Add("Gripper");
+        try
+        {
+            ImportedAsset whole = ImportedAsset.Of(scene.Scene);
+            Assert.That(whole.Codes, Has.None.EqualTo("UNITY_LAYER_OR_TAG_MISSING"));
+            Assert.That(LayersAndTags(whole), Is.EquivalentTo(new[] { (8, "Player"), (8, "Gripper"), (4, "Gripper") }));
+        }
+        finally
+        {
+            Unity.LayerMask.Layers.Remove("Robots");
+            Unity.GameObject.Tags.Remove("Gripper");
+        }
+    }
+
+    private static IEnumerable<(int Layer, string Tag)> LayersAndTags(ImportedAsset asset) =>
+        asset.Root.GetComponentsInChildren<Unity.Transform>(true).Select(t => (t.gameObject.layer, t.gameObject.tag)).Where(p => p != (0, "Untagged"));
+
+    private static Unity.Texture2D Texture(ImportedAsset asset, string identifier) =>
+        (Unity.Texture2D)asset.Context.Objects[(typeof(Unity.Texture2D), $"textures/{identifier}")];
+
+    // Each identifier with what it stands for.
+    private static string[] Told(ImportedAsset asset) =>
+    [
+        .. asset.Context.Objects.Where(o => o.Value is Unity.Material or Unity.Texture2D)
+            .Select(o => $"{o.Key.Identifier}: {(o.Value is Unity.Material m ? m.GetFloat("_Metallic") : ((Unity.Texture2D)o.Value).width)}").Order(StringComparer.Ordinal),
+    ];
+}

@@ -197,9 +197,9 @@ internal sealed class LinkRows
         for (int i = 0; i < _count; i++)
         {
             ref Row row = ref _made[i];
-            for (int p = 0; p < row.Parts; p++)
+            for (int p = row.First; p < row.First + row.Parts; p++)
             {
-                ref Part part = ref At(ref row, p);
+                ref Part part = ref _parts[p];
                 if (_links.IsLink(part.Body))
                     _links.Impulses(_links.ArticulationOf[part.Body])[_links.LinkOf[part.Body]] += part.Direction * _rows.Impulses[i];
             }

@@ -118,7 +118,7 @@ internal sealed class D6Joint : JointModel
 
     private int Prepare(in Pose body0, in Pose body1, Span<ConstraintRow> rows, bool hasLockedAxes)
     {
-        JointFrames.At(this, body0, body1, out JointFrames f);
+        FramesAt(body0, body1, out JointFrames f);
         f.Axes1(out Vector3d x1, out Vector3d y1, out Vector3d z1);
         var writer = new RowWriter(rows, f.P1, body0.Position, body1.Position, LimitsFromAfar);
 

@@ -17,14 +17,15 @@ public sealed class LinkReactionTests
 
     private static readonly object[] Arms =
     [
-        new object[] { "free", new[] { LinkScene.Link(ArticulationJointType.Revolute), LinkScene.Link(ArticulationJointType.Spherical, mass: 0.7), LinkScene.Link(ArticulationJointType.Revolute) } },
-        new object[] { "driven", new[] { LinkScene.Link(ArticulationJointType.Revolute, new ArticulationDrive { Stiffness = 300, Damping = 20, Target = 10 }), LinkScene.Link(ArticulationJointType.Prismatic, new ArticulationDrive { Stiffness = 200, Damping = 5 }), LinkScene.Link(ArticulationJointType.Fixed) } },
-        new object[] { "damped", new[] { LinkScene.Link(ArticulationJointType.Revolute) with { AngularDamping = 0.3, LinearDamping = 0.2 }, LinkScene.Link(ArticulationJointType.Fixed) with { UseGravity = false } } },
+        new object[] { "free", new[] { LinkScene.Link(ArticulationJointType.Revolute), LinkScene.Link(ArticulationJointType.Spherical, mass: 0.7), LinkScene.Link(ArticulationJointType.Revolute) }, 2 },
+        new object[] { "driven", new[] { LinkScene.Link(ArticulationJointType.Revolute, new ArticulationDrive { Stiffness = 300, Damping = 20, Target = 10 }), LinkScene.Link(ArticulationJointType.Prismatic, new ArticulationDrive { Stiffness = 200, Damping = 5 }), LinkScene.Link(ArticulationJointType.Fixed) }, 2 },
+        new object[] { "damped", new[] { LinkScene.Link(ArticulationJointType.Revolute) with { AngularDamping = 0.3, LinearDamping = 0.2 }, LinkScene.Link(ArticulationJointType.Fixed) with { UseGravity = false } }, 2 },
+        new object[] { "two arms on one", new[] { LinkScene.Link(ArticulationJointType.Revolute), LinkScene.Link(ArticulationJointType.Spherical, mass: 0.7), LinkScene.Link(ArticulationJointType.Revolute, new ArticulationDrive { Damping = 0.4 }) }, 1 },
     ];
 
     /// <summary>The exact solver's are those of ConfigurableJoints with the same frames.</summary>
     [TestCaseSource(nameof(Arms))]
-    public void CurrentForce_OfLinks_IsThatOfTheExactJointsToTheOrderOfTheStep(string name, ArticulationBody[] links)
+    public void CurrentForce_OfLinks_IsThatOfTheExactJointsToTheOrderOfTheStep(string name, ArticulationBody[] links, int thirdBelow)
     {
         double coarse = Gap(0.002), fine = Gap(0.0005);
         Assert.That(coarse, Is.LessThan(0.03), name);
@@ -32,8 +33,11 @@ public sealed class LinkReactionTests
 
         double Gap(double step)
         {
-            World unity = LinkScene.World(SolverKind.Unity, links);
-            World exact = LinkScene.World(SolverKind.Exact, links);
+            SceneDocument document = LinkScene.Document(LinkScene.Base, links);
+            if (links.Length > 2)
+                document = document with { GameObjects = [.. document.GameObjects.Take(3), document.GameObjects[3] with { Parent = thirdBelow }] };
+            World unity = World.Create(LinkScene.Valid(document), SolverKind.Unity);
+            World exact = World.Create(LinkScene.Valid(document), SolverKind.Exact);
             unity.Run(0.3, step: step);
             exact.Run(0.3, step: step);
             return Enumerable.Range(0, links.Length).Max(i => Math.Max(

@@ -4,7 +4,7 @@ using System.Linq;
 
 namespace Kinefab.Bench;
 
-/// <summary>dotnet run -c Release --project csharp/bench -- drive|load|start|mobility|solver|articulation|hub|all [--write]</summary>
+/// <summary>dotnet run -c Release --project csharp/bench -- drive|load|start|mobility|solver|articulation|hub|package|peers|all [--write]</summary>
 internal static class Program
 {
     private static readonly Dictionary<string, Func<string>> Benchmarks = new()
@@ -16,6 +16,8 @@ internal static class Program
         ["solver"] = Tables.Solver,
         ["articulation"] = Tables.Articulation,
         ["hub"] = Tables.Hub,
+        ["package"] = Tables.Package,
+        ["peers"] = Tables.Peers,
     };
 
     private static int Main(string[] args)

@@ -67,6 +67,10 @@ internal static class Tables
 
     internal static string Hub() => Written(HubBenchmark.Run);
 
+    internal static string Package() => Written(PackageBenchmark.Run);
+
+    internal static string Peers() => Written(PeerBenchmark.Run);
+
     private static string Written(Action run)
     {
         TextWriter console = Console.Out;

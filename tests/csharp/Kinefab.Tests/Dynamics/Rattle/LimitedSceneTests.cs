@@ -20,8 +20,11 @@ internal sealed class LimitedSceneTests
     private const int Steps = 20;
     private const double MostOpen = 1e-8;
     private const double MostPassed = 2e-8;
-    private const double MostGain = 1e-3;
-    private const double MostStopped = 0.05;
+    private const double MostStopped = 0.02;
+
+    // Of the largest energy so far: in a few scenes, and in any.
+    private const double MostUsualGain = 1e-3;
+    private const double MostGain = 5e-3;
 
     [Test]
     public void Step_ScenesThatRunIntoLimits_StayTrue()
@@ -61,6 +64,11 @@ internal sealed class LimitedSceneTests
             }
 
             if (gain > MostGain)
+            {
+                faults.Enqueue($"seed {seed}: energy grew by {gain} of the largest");
+            }
+
+            if (gain > MostUsualGain)
             {
                 Interlocked.Increment(ref gained);
                 TestContext.Progress.WriteLine($"seed {seed}: energy grew by {gain} of the largest");

@@ -1,7 +1,7 @@
 """Writes the ``.meta`` beside every file and folder of the Unity package: ``python csharp/unity/metas.py``.
 
 A guid comes from the path, so that it is the same wherever and whenever it is made. Users' projects refer to scripts and
-assets by guid alone: a file that is moved keeps the guid of the place at which it was first released, by a line in ``KEPT``.
+assets by guid alone: nothing that was released may be moved.
 """
 
 from __future__ import annotations
@@ -10,23 +10,17 @@ import sys
 from collections.abc import Iterator
 from pathlib import Path, PurePosixPath
 
-from kinefab.targets.prefab.objects.couplings import script_guid
 from kinefab.targets.prefab.text import metas
 from kinefab.targets.prefab.text.ids import guid
 
 NAME = "com.kinefab"
 PACKAGE = Path(__file__).parent / NAME
-KEPT: dict[str, str] = {
-    # In prefabs by `kinefab export --scripts` too.
-    "Runtime/Mechanism/KinefabCoupling.cs": script_guid("KinefabCoupling.cs"),
-}
-"""Guids that do not come from the path, by path."""
 IMPORTER = "Editor/Import/KinefabImporter.cs"
 
 
 def guid_of(path: str) -> str:
     """path: in the package, with slashes."""
-    return KEPT.get(path) or guid(NAME, path)
+    return guid(NAME, path)
 
 
 def is_of_exporter(path: str) -> bool:

@@ -1,4 +1,4 @@
-"""Writes the samples of the Unity package by the exporter itself: ``python csharp/unity/samples.py``, then ``metas.py``.
+"""Writes the samples of the Unity package by the exporter itself, and copies its script: ``python csharp/unity/samples.py``, then ``metas.py``.
 
 Each has a ``.kinefab`` that the package imports, and in ``Prefab`` what ``kinefab export -o NAME.prefab`` writes, for physics alone.
 """
@@ -13,6 +13,8 @@ from pathlib import Path
 import kinefab
 import numpy as np
 import trimesh
+from kinefab.targets.prefab.objects.couplings import FOLDER, SCRIPT, script_guid
+from metas import guid_of
 
 ROOT = Path(__file__).resolve().parents[2]
 SAMPLES = Path(__file__).parent / "com.kinefab" / "Samples~"
@@ -100,6 +102,12 @@ WRITING: Mapping[str, Mapping[str, object]] = {"Arm": {"physics": "articulation"
 """Options of the target."""
 
 
+def copy_script() -> None:
+    """The script that prefabs bring, in the package's namespace."""
+    text = (FOLDER / SCRIPT).read_text("utf-8").replace("namespace Kinefab\n", "namespace KinefabUnity\n")
+    (SAMPLES.parent / "Runtime" / "Mechanism" / SCRIPT).write_text(text, encoding="utf-8", newline="\n")
+
+
 def main() -> int:
     for name, make in MADE.items():
         folder = SAMPLES / name
@@ -111,7 +119,10 @@ def main() -> int:
         scene = {key: value for key, value in asked.items() if key != "scripts"}
         kinefab.export(make(), folder / f"{name}.kinefab", kinefab.ExportOptions(writing=scene))
         kinefab.export(make(), folder / "Prefab" / f"{name}.prefab", kinefab.ExportOptions(writing=asked))
-        # The package has the script already, by the same guid; the note of what was written is for a next export over it.
+        # The package has a script of its own for couplings; the note of what was written is for a next export over it.
+        prefab = folder / "Prefab" / f"{name}.prefab"
+        own = prefab.read_text("utf-8").replace(script_guid(SCRIPT), guid_of(f"Runtime/Mechanism/{SCRIPT}"))
+        prefab.write_text(own, encoding="utf-8", newline="\n")
         shutil.rmtree(folder / "Prefab" / name / "Scripts", ignore_errors=True)
         for left in ("Scripts.meta", ".kinefab.json"):
             (folder / "Prefab" / name / left).unlink(missing_ok=True)
@@ -119,4 +130,5 @@ def main() -> int:
 
 
 if __name__ == "__main__":
+    copy_script()
     sys.exit(main())

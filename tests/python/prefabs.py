@@ -38,14 +38,14 @@ def looks(folder: Path) -> dict[str, object]:
 
 def main(folder: Path, kind: str) -> int:
     sources: dict[str, object] = {source.name.partition(".")[0]: source for source, _ in golden_pairs()}
-    options, writing = SETTINGS.get(kind, SETTINGS["body"]), {}
+    options, writing = SETTINGS.get(kind, SETTINGS["body"]), {"scripts": True}
     if kind == "links":
         options = LINKS
         sources["lever urdf"] = FIXTURES / "lever/lever.urdf"
     elif kind == "clips":
         sources = {scene.stem: scene for scene in sorted(CLIPS.glob("*.kinefab"))}
     elif kind in PIPELINES:
-        sources, writing = looks(folder), {"pipeline": kind}
+        sources, writing = looks(folder), {"pipeline": kind, "scripts": True}
     elif kind == "body":
         sources |= {path: FIXTURES / path for path in MORE}
     for stem, source in sources.items():

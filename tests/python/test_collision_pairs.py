@@ -107,7 +107,9 @@ def test_bodies_that_the_source_lets_pass_are_kept_apart_without_a_script(tmp_pa
     result = kinefab.export(two_balls(), tmp_path / "balls.kinefab")
     assert touching(tmp_path / "balls.kinefab") == {frozenset("AC"), frozenset("BC")}
     content = json.loads((tmp_path / "balls.kinefab").read_text(encoding="utf-8"))
-    assert content["extras"]["ignoreCollision"] == [["A", "B"]]
+    names = [entry["id"] for entry in content["gameObjects"]]
+    (pair,) = content["ignoredCollisions"]
+    assert [names[pair[end]] for end in "ab"] == ["A", "B"] and pair["reason"]
     overlaps = [d.message for d in result.report.diagnostics if d.code == "COLLIDERS_OVERLAP"]
     assert not any("A" in message.split() and "B" in message.split() for message in overlaps)
 

@@ -47,6 +47,61 @@ def test_both_count_the_same_in_random_mechanisms(tmp_path):
     assert {file: said for file, said in found.items() if said} == {}
 
 
+APART_ONCE = {
+    107: (5, 0),  # a shaft that a coupling slides; what turns on it is coupled elsewhere
+    858: (6, 1),
+    2196: (6, 1),
+    2850: (7, 0),  # two joints of one pair whose velocities, but no motion, go together
+    3330: (0, 0),
+    3630: (4, 1),
+    3881: (3, 3),  # a coupling that holds two parts together, and leaves one loop
+    4415: (5, 0),
+    4821: (4, 1),
+    4941: (3, 0),  # two branches of motions that touch each other
+}
+"""Mechanisms, by seed, that were once counted differently: mobility and idle freedoms."""
+
+
+@pytest.mark.parametrize("seed", APART_ONCE)
+def test_both_count_what_was_counted_differently(tmp_path, seed):
+    kinefab.export(mechanism(seed), tmp_path / "scene.kinefab")
+    stated = json.loads((tmp_path / "scene.kinefab").read_text())["analysis"]
+    assert (stated["mobility"], stated["idle"]) == APART_ONCE[seed]
+    if TOOL is not None:
+        assert differences(counted(tmp_path)[0]) == []
+
+
+def test_what_turns_in_step_with_another_part_is_not_idle(tmp_path):
+    """A rod between two balls spins by itself, unless something that cannot turn with it hangs on it."""
+    for handle, idle in ((None, 1), ("ball on the rod's line", 1), ("hinge", 0)):
+        scene = rod_between_balls(handle)
+        assert sum(one.count for one in analyse(scene).idle) == idle, handle
+        if TOOL is not None:
+            kinefab.export(scene, tmp_path / "scene.kinefab")
+            assert differences(counted(tmp_path)[0]) == [], handle
+
+
+def rod_between_balls(handle: str | None) -> kinefab.Scene:
+    """Of a four-bar linkage in space; a handle on the rod by a joint."""
+    scene = kinefab.Scene()
+    base, crank, rod, rocker = (
+        scene.add_part(name, grounded=name == "Base", mass=None if name == "Base" else 1.0)
+        for name in ("Base", "Crank", "Rod", "Rocker")
+    )
+    low, high = np.array([0.2, 0.3, 0.0]), np.array([1.1, 0.7, 0.4])
+    scene.add_hinge(base, crank, point=(0, 0, 0), axis=(0, 0, 1))
+    scene.add_ball(crank, rod, point=tuple(low))
+    scene.add_ball(rod, rocker, point=tuple(high))
+    scene.add_hinge(base, rocker, point=(1, 0, 0), axis=(0.1, 0.2, 1))
+    if handle is not None:
+        own = scene.add_part("Handle", mass=0.1)
+        if handle == "hinge":
+            scene.add_hinge(rod, own, point=(0.5, 0.6, 0.2), axis=(0, 1, 0))
+        else:
+            scene.add_ball(rod, own, point=tuple(0.5 * (low + high)))
+    return scene
+
+
 def hinged(noise: float, *hinges: tuple[int, int, tuple[float, float, float]]) -> kinefab.Scene:
     """Parts on the ground, part 0, and hinges (part, part, point) along z, points and axes off by about ``noise``."""
     draw = np.random.default_rng(4)

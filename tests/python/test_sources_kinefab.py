@@ -5,13 +5,20 @@ from __future__ import annotations
 import json
 import re
 import struct
-from dataclasses import replace
+from dataclasses import is_dataclass, replace
 from pathlib import Path
 
 import kinefab
+import kinefab.unity.scene as nouns_of_unity
 import numpy as np
 import pytest
 from golden import golden_pairs
+from kinefab.diagnostics import Report
+from kinefab.model import Apart, Site
+from kinefab.sources import read as read_source
+from kinefab.spatial import Pose
+from kinefab.targets.noun_entry import unsaid
+from kinefab.unity.definitions import definition_of, definitions
 
 FIXTURES = Path(__file__).resolve().parents[2] / "fixtures"
 LEVER = FIXTURES / "lever"
@@ -201,3 +208,49 @@ def test_a_scene_with_a_fault_is_refused_or_written_never_an_exception(path, end
         kinefab.export(path, tmp_path / f"scene{ending}")
     except kinefab.KinefabError as error:
         assert path.parents[1].name == "invalid" and error.diagnostics
+
+
+@pytest.mark.parametrize("ground", ["body", "world"])
+def test_what_is_asked_of_geometry_that_a_scene_states_already_is_told_as_unused(ground, tmp_path):
+    scene = kinefab.export(LEVER / "lever.bundle.json", tmp_path / "scene.kinefab").path
+    asked = kinefab.ExportOptions(colliders="box", density=7850, smooth=None, solve=True, ground=ground)
+    report = kinefab.export(scene, tmp_path / "again.kinefab", asked).report
+    told = sorted(d.message.split()[0] for d in report.diagnostics if d.code == "SOURCE_OPTION_UNUSED")
+    assert told == ["--colliders", "--density", "--smooth", "--solve"][: 4 if ground == "body" else 3]
+    assert not kinefab.export(scene, tmp_path / "again.kinefab").report.diagnostics
+
+
+def test_roles_configuration_and_pairs_are_said_and_read_back(tmp_path):
+    """The ground, a site, which state of the source it was, and a rule by which two parts pass through each other."""
+    scene = kinefab.Scene()
+    parts = [scene.add_part(name, density=1000, translation=(i, 0, 0)) for i, name in enumerate("AB")]
+    for part in parts:
+        scene.add_hinge(None, part, point=(0, 0, 0), axis=(0, 1, 0))
+    scene.nodes[1] = replace(scene.nodes[1], sites=(Site("tip", Pose(translation=np.array([0.0, 0.2, 0.0]))),))
+    scene.apart.append(Apart(0, 1, "contact exclude"))
+    scene.source = replace(scene.source, configuration="Tool=long")
+    first = kinefab.export(scene, tmp_path / "first.kinefab").path
+    document = json.loads(first.read_text("utf-8"))
+    roles = {entry["id"]: entry["role"] for entry in document["gameObjects"] if "role" in entry}
+    assert roles == {"kinefab:ground": "ground", "B/site:tip": "site"} and document["version"] == "1.1"
+    assert document["source"]["configuration"] == "Tool=long"
+    assert document["ignoredCollisions"] == [{"a": 1, "b": 2, "reason": "contact exclude"}]
+    again = kinefab.export(first, tmp_path / "again.kinefab").path
+    assert again.read_bytes() == first.read_bytes()
+    world = json.loads(kinefab.export(scene, tmp_path / "w.kinefab", kinefab.ExportOptions(ground="world")).path.read_text("utf-8"))
+    assert "ground" not in [entry.get("role") for entry in world["gameObjects"]]
+    back = read_source(first, Report())
+    assert [site.name for site in back.nodes[1].sites] == ["tip"] and back.source.configuration == "Tool=long"
+    assert [(pair.a, pair.b, pair.reason) for pair in back.apart] == [(0, 1, "contact exclude")]
+
+
+def test_every_field_of_every_noun_has_a_place_in_the_file():
+    """So nothing that Unity has is lost on the way into a scene; of a mesh and a coupling the file's own words are others."""
+    nouns = [noun for name in nouns_of_unity.__all__ if is_dataclass(noun := getattr(nouns_of_unity, name))]
+    written_otherwise = {"Mesh": {"vertices", "triangles", "uvs"}, "Coupling": {"coordinate"}}
+    left = {
+        noun.__name__: set(unsaid(noun)) - written_otherwise.get(noun.__name__, set())
+        for noun in nouns
+        if definition_of(noun) in definitions()
+    }
+    assert len(left) > 30 and not any(left.values()), left

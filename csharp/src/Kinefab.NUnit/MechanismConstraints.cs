@@ -16,7 +16,7 @@ public static class MechanismConstraints
     public static ClosesConstraint Closes => new();
 
     /// <summary>A coordinate can be driven through a range.</summary>
-    /// <param name="coordinate">What the CAD program calls the joint, or its GameObject's id, with the coordinate behind it where it has several: Arm.angularX.</param>
+    /// <param name="coordinate">What the source calls the joint, or its GameObject's id, with the coordinate behind it where it has several: Arm.angularX.</param>
     /// <returns>The constraint: a whole turn from the exported pose unless stated otherwise.</returns>
     public static DrivesConstraint Drives(string coordinate) => new(coordinate);
 }

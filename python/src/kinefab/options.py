@@ -83,6 +83,7 @@ class FormatOption:
 
     name: as Python has it, with underscores.  kind: str, float, int, bool or Path; several of it where ``repeated``.
     words: the values that it may have, () for any.  metavar: what the help calls the value.
+    chooses: which of several states of the source is read; what is given is told as the scene's configuration.
     """
 
     name: str
@@ -91,6 +92,7 @@ class FormatOption:
     repeated: bool = False
     words: tuple[str, ...] = ()
     metavar: str = ""
+    chooses: bool = False
 
     def check(self, value: object) -> None:
         """Raises ValueError for a word that is none of ``words``, TypeError for a flag that is no bool and for what holds no

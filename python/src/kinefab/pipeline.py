@@ -125,6 +125,8 @@ def prepared(
     """
     files = MeshFiles(report, part_readers())
     scene = source if isinstance(source, Scene) else _read(source, options.reading, files, report, progress)
+    if isinstance(scene, WrittenScene):
+        scene.tell_unused(options, report)
     if not scene.nodes:
         report.add("SCENE_WITHOUT_PARTS")
     scene = with_sound_breaks(mated(_enabled(scene, report), options.reading, report), report)

@@ -18,7 +18,7 @@ internal static class SweepCommand
     internal static Command Create()
     {
         var scenes = new SceneArguments();
-        var joint = new Option<string>("--joint") { Description = "ID[.COORDINATE]: what the CAD program calls the joint, or id or name of the object with it, with [COMPONENT] behind it where one object carries several.", Required = true };
+        var joint = new Option<string>("--joint") { Description = "ID[.COORDINATE]: what the source calls the joint, or id or name of the object with it, with [COMPONENT] behind it where one object carries several.", Required = true };
         Option<double?> from = TypedOptions.Finite("--from", "First value, degrees or metres; default: the low end of the range, or 0 for a whole turn.");
         Option<double?> to = TypedOptions.Finite("--to", $"Last value; default: the high end of the range. Values up to {FarthestDegrees} deg or {FarthestMetres} m either way.");
         Option<int> steps = TypedOptions.Count("--steps", "Number of steps.", most: TypedOptions.MostSteps, standard: 72);

@@ -120,6 +120,15 @@ public static class DiagnosticCodes
     /// <summary>The coupling couples a coordinate with itself.</summary>
     public const string CouplingItself = "COUPLING_ITSELF";
 
+    /// <summary>gameObjects[{first}] stands for the ground already.</summary>
+    public const string GroundTwice = "GROUND_TWICE";
+
+    /// <summary>The site has components, or no GameObject above it.</summary>
+    public const string SiteNotAFrame = "SITE_NOT_A_FRAME";
+
+    /// <summary>The pair that passes through each other is one GameObject twice.</summary>
+    public const string IgnoredCollisionItself = "IGNORED_COLLISION_ITSELF";
+
     /// <summary>The coupling has two terms of one coordinate.</summary>
     public const string CouplingTermTwice = "COUPLING_TERM_TWICE";
 

@@ -65,6 +65,15 @@ internal sealed class D6Joint : JointModel
     /// <inheritdoc/>
     public override int PrepareForces(in Pose body0, in Pose body1, Span<ConstraintRow> rows) => Prepare(body0, body1, rows, false);
 
+    /// <inheritdoc/>
+    public override int PrepareLocked(in JointFrames frames, Vector3d center0, Vector3d center1, Span<ConstraintRow> rows)
+    {
+        frames.Axes1(out Vector3d x1, out _, out _);
+        var writer = new RowWriter(rows, frames.P1, center0, center1, LimitsFromAfar);
+        LockedAxes(ref writer, frames, x1);
+        return writer.Count;
+    }
+
     /// <summary>
     /// The motion of X, Y or Z. Where the rows of all limits are asked for, Limited to a hard radius of nothing is Locked:
     /// the direction of so small a distance would come and go, and with it the limit's row, which PhysX lets happen.

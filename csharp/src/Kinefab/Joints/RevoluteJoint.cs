@@ -61,6 +61,14 @@ internal sealed class RevoluteJoint : JointModel
     /// <inheritdoc/>
     public override int PrepareForces(in Pose body0, in Pose body1, Span<ConstraintRow> rows) => Prepare(body0, body1, rows, false);
 
+    /// <inheritdoc/>
+    public override int PrepareLocked(in JointFrames frames, Vector3d center0, Vector3d center1, Span<ConstraintRow> rows)
+    {
+        var writer = new RowWriter(rows, frames.P1, center0, center1, LimitsFromAfar);
+        LockedAxes(ref writer, frames);
+        return writer.Count;
+    }
+
     /// <summary>Actor 1's angle against actor 0, radians; see SwingTwist.TwistAngle for its range.</summary>
     public double Angle(in Pose body0, in Pose body1) => Angle(new JointFrames(this, body0, body1));
 
@@ -68,13 +76,12 @@ internal sealed class RevoluteJoint : JointModel
     {
         JointFrames.At(this, body0, body1, out JointFrames f);
         var writer = new RowWriter(rows, f.P1, body0.Position, body1.Position, LimitsFromAfar);
-        bool isLocked = LimitEnabled && Limit.Lower >= Limit.Upper;
         if (hasLockedAxes)
         {
-            writer.Locked(f, 7, isLocked ? 7 : 6);
+            LockedAxes(ref writer, f);
         }
 
-        if (isLocked)
+        if (IsLocked)
         {
             return writer.Count;
         }
@@ -101,6 +108,10 @@ internal sealed class RevoluteJoint : JointModel
 
         return writer.Count;
     }
+
+    private bool IsLocked => LimitEnabled && Limit.Lower >= Limit.Upper;
+
+    private void LockedAxes(ref RowWriter writer, in JointFrames f) => writer.Locked(f, 7, IsLocked ? 7 : 6);
 
     private double Angle(in JointFrames f) => Followed(SwingTwist.TwistAngle(f.Relative.Rotation));
 }

@@ -4,7 +4,7 @@ using Kinefab.Document;
 namespace Kinefab.Mechanisms;
 
 /// <summary>
-/// What the CAD program calls a joint and how it counts its coordinates, as far as the file tells: the one place for either,
+/// What the source calls a joint and how it counts its coordinates, as far as the file tells: the one place for either,
 /// so that a field of a later format is read here alone.
 /// </summary>
 internal static class CadReading
@@ -16,7 +16,7 @@ internal static class CadReading
     public static IReadOnlyList<string> Sources(Joint joint) => joint.Because;
 
     /// <summary>
-    /// How a coordinate reads in the CAD program: Sign times it, plus Offset in degrees or metres. Format 1.0 tells the sense of
+    /// How a coordinate reads in the source: Sign times it, plus Offset in degrees or metres. Format 1.0 tells the sense of
     /// hinges, slides, and turns about the axis of a slide, and no offset: zero is the pose in the file.
     /// </summary>
     public static (double Sign, double Offset) Of(Joint joint, Coordinate coordinate) =>

@@ -19,7 +19,7 @@ internal sealed class SceneNames
     private readonly Dictionary<string, int> _objectsById = new(StringComparer.Ordinal);
     private readonly HashSet<int> _several = new();
 
-    // What the CAD program calls a joint, and what it calls the constraints that a joint stands for.
+    // What the source calls a joint, and what it calls the constraints that a joint stands for.
     private readonly Dictionary<string, HashSet<(int GameObject, int Component)>> _named = new(StringComparer.Ordinal);
     private readonly Dictionary<string, HashSet<(int GameObject, int Component)>> _sources = new(StringComparer.Ordinal);
     private readonly Dictionary<(int GameObject, int Component), string> _cadNames = new();
@@ -45,17 +45,17 @@ internal sealed class SceneNames
         }
     }
 
-    /// <summary>What a joint is called; also with [COMPONENT] where the CAD program calls another joint by the object's id.</summary>
+    /// <summary>What a joint is called; also with [COMPONENT] where the source calls another joint by the object's id.</summary>
     public string Joint(int gameObject, int component)
     {
         string id = _objects[gameObject].Id;
         return _several.Contains(gameObject) || IsTaken(_named, id, gameObject) || IsTaken(_sources, id, gameObject) ? $"{id}[{component}]" : id;
     }
 
-    /// <summary>The user's own name for a joint in the CAD program; null: not known.</summary>
+    /// <summary>The user's own name for a joint in the source; null: not known.</summary>
     public string? NameInCad(int gameObject, int component) => _cadNames.TryGetValue((gameObject, component), out string? name) ? name : null;
 
-    /// <summary>Whether the CAD program calls a joint so, or a constraint that a joint stands for.</summary>
+    /// <summary>Whether the source calls a joint so, or a constraint that a joint stands for.</summary>
     public bool IsNameInCad(string name) => _named.ContainsKey(name) || _sources.ContainsKey(name);
 
     /// <summary>What goes behind a joint's name in a message: "Shaft" in quotes, after a space; empty where it is not known.</summary>

@@ -26,6 +26,7 @@ public static class SceneValidator
         var findings = new Findings((limits ?? SceneLimits.Default).MaxFindings);
         Descriptions(document, findings);
         StructureRules.Ids(document, findings);
+        StructureRules.Roles(document, findings);
         var anchored = new List<(int GameObject, int Component)>();
 
         // The nearest Rigidbody on each object or its ancestors; parents may still be wrong, so only earlier ones count.
@@ -191,6 +192,8 @@ public static class SceneValidator
             ColliderRules.Material(document.PhysicsMaterials[i], new Place(findings, "physicsMaterials", i));
         for (int i = 0; i < document.Couplings.Count; i++)
             CouplingRules.Check(document.Couplings[i], document, new Place(findings, "couplings", i));
+        for (int i = 0; i < document.IgnoredCollisions.Count; i++)
+            StructureRules.Ignored(document.IgnoredCollisions[i], document.GameObjects.Count, new Place(findings, "ignoredCollisions", i));
         for (int i = 0; i < document.Animations.Count; i++)
             AnimationRules.Check(document.Animations[i], document.GameObjects.Count, new Place(findings, "animations", i));
         for (int i = 0; i < document.Constraints.Count; i++)

@@ -38,9 +38,10 @@ namespace KinefabUnity
                 ValidScene scene = load();
                 KinefabFinding.Add(scene.Report, found);
                 KinefabFinding.AddLosses(scene.Document, found);
-                var builder = new SceneBuilder(scene, settings ?? new KinefabSettings(), found);
+                settings = settings ?? new KinefabSettings();
+                var builder = new SceneBuilder(Ground.Apply(scene, settings.ground, found), settings, found);
                 root = builder.Build(ObjectNames.Plain(name), parent);
-                builder.Move(KinefabSource.Of(text()));
+                builder.Move(KinefabSource.Of(text(), settings.ground));
             }
             catch (SceneFormatException fault)
             {

@@ -89,7 +89,9 @@ def _analysed(scene: Scene, options: AnalysisOptions, progress: Callable[[float]
     links = with_found_ranges(assembly, links, ranges, report)
     links = rehung(assembly, links, closed, report)
     couplings = couplings_of(assembly, links, closed, report)
+    stated = len(couplings)
     couplings = without_standing(assembly, links, couplings, closed, report)
+    as_stated = len(closed.nodes) == len(assembly.scene.nodes) and len(couplings) == stated
     couplings += symmetric_couplings(assembly, tree, links, closed, report)
     fixed = _fixed(assembly)
     groups = rigid_groups(scene, fixed)
@@ -104,7 +106,10 @@ def _analysed(scene: Scene, options: AnalysisOptions, progress: Callable[[float]
         groups=groups,
         fixed=fixed,
         islands=islands_of(assembly, tree, links, found.aside, couplings),
-        idle=sorted(_idle(assembly, links, couplings, closed), key=lambda idle: idle.nodes),
+        idle=sorted(
+            idle_freedoms(assembly) if as_stated else _idle(assembly, links, couplings, closed),
+            key=lambda idle: idle.nodes,
+        ),
         joints=[*joints, *found.aside],
         findings={
             **{joint.id: JointFinding(joint.id) for joint in found.aside},
@@ -165,10 +170,9 @@ def _idle(
 ) -> list[IdleFreedom]:
     """Over the bodies that are exported.  scene: with middle bodies, at the closed pose.
 
-    The rod that stands for a distance moves along with what it holds, or leaves it alone where several meet.
+    The rod that stands for a distance moves along with what it holds, or leaves it alone where several meet; what a coupling holds
+    is one body.
     """
-    if len(scene.nodes) == len(assembly.scene.nodes):
-        return idle_freedoms(assembly)
     joints = [link.joint for link in links]
     return idle_freedoms(assemble(welded(scene, _fixed(assembly), joints, couplings), Report()))
 

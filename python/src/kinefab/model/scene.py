@@ -29,6 +29,7 @@ class Source:
     """Where a scene came from: uri relative to the file, upAxis 'X'|'Y'|'Z', metres per source unit.
 
     files: everything else that was read (references, includes, meshes), where the reader knows.
+    configuration: which of several states of it was asked for (variants, keyframe), as the source names them; "" for the usual one.
     """
 
     uri: str = ""
@@ -36,6 +37,7 @@ class Source:
     meters_per_unit: float = 1.0
     sha256: str = ""
     files: tuple[SourceFile, ...] = ()
+    configuration: str = ""
 
 
 EARTH = (0.0, -9.81, 0.0)

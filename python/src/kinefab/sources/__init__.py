@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import os
 from collections.abc import Callable, Iterator, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from importlib import import_module
 from importlib.util import find_spec
 from pathlib import Path
@@ -73,6 +73,7 @@ FORMATS = (
                 "USD: choose a variant: set=name, or /Prim:set=name.",
                 repeated=True,
                 metavar="SET=NAME",
+                chooses=True,
             ),
             FormatOption("load", "USD: load payloads or leave them out.", words=("all", "none")),
             FormatOption(
@@ -152,7 +153,16 @@ def read(
     for option in found.options:
         option.check(asked.get(option.name))
     reader = import_module(f".{found.module}", __name__)
-    scene: Scene = reader.read(path, report, Request(asked, vertices, progress))
+    request = Request(asked, vertices, progress)
+    scene: Scene = reader.read(path, report, request)
+    chosen = [
+        value if "=" in value else f"{option.name}={value}"
+        for option in found.options
+        if option.chooses
+        for value in request.texts(option.name)
+    ]
+    if chosen:
+        scene.source = replace(scene.source, configuration="; ".join(chosen))
     return scene
 
 

@@ -123,7 +123,8 @@ def _is_newer(scene: UnityScene, looks: Looks, numbers: dict[str, Any]) -> bool:
     """Whether something in it format 1.0 has no word for."""
     lists = {"mesh": numbers.get("meshes", ()), "material": looks.materials}
     return (
-        bool(scene.physicsMaterials or looks.images)
+        bool(scene.physicsMaterials or looks.images or scene.ignoredCollisions)
+        or needs_newer(scene.source)
         or any(len(coupling.terms) > 1 for coupling in scene.couplings)
         or any("uri" not in buffer for buffer in numbers.get("buffers", ()))
         or any(newer_keys(definition) & entry.keys() for definition, entries in lists.items() for entry in entries)
@@ -138,6 +139,7 @@ def _tail(scene: UnityScene, looks: Looks, report: Report) -> dict[str, Any]:
         "physicsMaterials": [entry(material) for material in scene.physicsMaterials],
         "gameObjects": _game_objects(scene.gameObjects),
         "couplings": [_coupling(coupling) for coupling in scene.couplings],
+        "ignoredCollisions": [entry(pair) for pair in scene.ignoredCollisions],
         "animations": [entry(clip) for clip in scene.animations],
         "constraints": [entry(constraint) for constraint in scene.constraints],
         "analysis": None if scene.analysis is None else _analysis(scene.analysis),

@@ -33,6 +33,7 @@ from .scene import (
     ConfigurableJoint,
     FixedJoint,
     GameObject,
+    IgnoredCollision,
     MeshFilter,
     MeshRenderer,
     Physics,
@@ -76,7 +77,11 @@ def map_scene(
     gravity = vector3(frames.direction(physics.gravity))
     return UnityScene(
         source=Source(
-            scene.source.uri, scene.source.up_axis, scene.source.meters_per_unit, scene.source.sha256
+            scene.source.uri,
+            scene.source.up_axis,
+            scene.source.meters_per_unit,
+            scene.source.sha256,
+            scene.source.configuration,
         ),
         physics=Physics(
             gravity, physics.fixed_timestep, physics.solver_iterations, physics.solver_velocity_iterations
@@ -89,7 +94,12 @@ def map_scene(
         animations=tuple(map_clip(clip, builder.object_of) for clip in scene.animations),
         constraints=tuple(map_constraint(c, builder.object_of) for c in scene.constraints),
         analysis=None if analysis is None else map_mobility(analysis, builder.object_of),
-        extras=_extras(scene),
+        ignoredCollisions=tuple(
+            IgnoredCollision(builder.object_of[pair.a], builder.object_of[pair.b], pair.reason)
+            for pair in scene.apart
+            if pair.stated
+        ),
+        extras=dict(scene.extras),
     )
 
 
@@ -125,7 +135,7 @@ class _Builder:
         """The body that stands for the ground, above everything, where something stands on it."""
         joined = any(joint.a is None or joint.b is None for joint in self.scene.joints)
         if self.colliders.ground is Ground.BODY and (joined or any(self.groups.grounded)):
-            self.ground = self._object(GameObject(GROUND_ID, "Ground"))
+            self.ground = self._object(GameObject(GROUND_ID, "Ground", role="ground"))
             self.components[self.ground].append(Rigidbody(useGravity=False, isKinematic=True))
 
     def add_objects(self) -> None:
@@ -154,7 +164,7 @@ class _Builder:
             self._add_colliders(i, index)
             for site in node.sites:
                 id = free_id(f"{node.id}/site:{site.name}", self.taken)
-                self._object(GameObject(id, site.name, index, transform=transform_of(site.pose)))
+                self._object(GameObject(id, site.name, index, transform=transform_of(site.pose), role="site"))
 
     def _object(self, made: GameObject) -> int:
         """The index of a new GameObject."""
@@ -377,17 +387,6 @@ class _Builder:
         screws = screw_couplings([mapped for mapped, _ in self.joints.values()], stated)
         mapped = (map_coupling(c, self.joints, self.object_of, self.report) for c in [*stated, *screws])
         return [coupling for coupling in mapped if coupling is not None]
-
-
-def _extras(scene: Scene) -> dict[str, object]:
-    """The scene's own, with the pairs of bodies that the source lets pass through each other by their ids."""
-    found = dict(scene.extras)
-    apart = [pair for pair in scene.apart if pair.stated]
-    if apart:
-        stated = found.get("ignoreCollision")
-        pairs = [[scene.nodes[pair.a].id, scene.nodes[pair.b].id] for pair in apart]
-        found["ignoreCollision"] = [*pairs, *(stated if isinstance(stated, list) else [])]
-    return found
 
 
 HOME = Pose()

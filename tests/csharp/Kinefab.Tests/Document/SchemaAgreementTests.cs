@@ -56,6 +56,32 @@ public class SchemaAgreementTests
         }
     }
 
+    /// <summary>What version 1.0 lacks: nouns and fields with <c>since</c> in the schema have <c>[Since]</c> of that minor version, and no others.</summary>
+    [TestCaseSource(nameof(Nouns))]
+    public void Noun_AgainstItsDefinition_IsSinceTheSameVersion(Type noun)
+    {
+        JsonElement definition = Definition(noun);
+        var stated = new Dictionary<string, int> { [""] = Minor(definition) };
+        var coded = new Dictionary<string, int> { [""] = Minor(noun) };
+        foreach (JsonProperty property in definition.GetProperty("properties").EnumerateObject())
+        {
+            string name = property.Name == "extras" ? "ExtrasJson" : char.ToUpperInvariant(property.Name[0]) + property.Name[1..];
+            if (property.Name == "type")
+                continue;
+            stated[property.Name] = Minor(property.Value);
+            coded[property.Name] = Minor(noun.GetProperty(name, BindingFlags.Instance | BindingFlags.Public | BindingFlags.NonPublic)!);
+        }
+
+        Assert.That(coded, Is.EqualTo(stated));
+
+        static int Minor(object of) => of switch
+        {
+            JsonElement json => json.TryGetProperty("since", out JsonElement since) ? int.Parse(since.GetString()!.Split('.')[1]) : 0,
+            MemberInfo member => member.GetCustomAttribute<SinceAttribute>(inherit: false)?.Minor ?? 0,
+            _ => throw new ArgumentException("neither schema nor code", nameof(of)),
+        };
+    }
+
     [Test]
     public void Nouns_Counted_AreAllDefinitionsWithFields()
     {

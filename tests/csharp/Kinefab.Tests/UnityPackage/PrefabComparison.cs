@@ -3,6 +3,7 @@ using System.Collections.Generic;
 using System.Globalization;
 using System.Linq;
 using System.Reflection;
+using KinefabUnity;
 using NUnit.Framework;
 using Unity = UnityEngine;
 
@@ -25,7 +26,7 @@ internal sealed class PrefabComparison
         "m_RayTracingMode", "m_RayTraceProcedural", "m_RenderingLayerMask", "m_RendererPriority", "m_StaticBatchInfo", "m_StaticBatchRoot", "m_ProbeAnchor",
         "m_LightProbeVolumeOverride", "m_ScaleInLightmap", "m_ReceiveGI", "m_PreserveUVs", "m_IgnoreNormalsForChartDetection", "m_ImportantGI",
         "m_StitchLightmapSeams", "m_SelectedEditorRenderState", "m_MinimumChartSize", "m_AutoUVMaxDistance", "m_AutoUVMaxAngle", "m_LightmapParameters",
-        "m_SortingLayerID", "m_SortingLayer", "m_SortingOrder", "m_AdditionalVertexStreams", "m_AnimatePhysics", "m_CullingType", "m_WrapMode", "ArticulationBody.m_Enabled",
+        "m_Script", "m_Name", "m_EditorHideFlags", "m_EditorClassIdentifier", "m_SortingLayerID", "m_SortingLayer", "m_SortingOrder", "m_AdditionalVertexStreams", "m_AnimatePhysics", "m_CullingType", "m_WrapMode", "ArticulationBody.m_Enabled",
     ];
 
     // What scripts call otherwise than files.
@@ -87,11 +88,11 @@ internal sealed class PrefabComparison
         foreach (string field in own.Fields.Keys.Where(f => !IsLeftOut(own.Class, f) && !(isRoot && f == "m_Name")))
             Check(own, field, to, at);
         string[] components = [.. own.List("m_Component")];
-        // The package's own component is none of a prefab's, which needs no package.
-        Assert.That(to.Components.Where(c => c is not Unity.MonoBehaviour).Select(c => c.GetType().Name).Order(StringComparer.Ordinal), Is.EqualTo(components.Select(c => prefab.Documents[c].Class).Order(StringComparer.Ordinal)), at);
+        // What moves an import is none of a prefab's, which needs no package.
+        Assert.That(to.Components.Where(c => c is not KinefabMechanism).Select(Class).Order(StringComparer.Ordinal), Is.EqualTo(components.Select(c => prefab.Documents[c].Class).Order(StringComparer.Ordinal)), at);
         foreach (IGrouping<string, string> kind in components.GroupBy(c => prefab.Documents[c].Class))
         {
-            foreach ((string from, Unity.Component component) in kind.Zip(to.Components.Where(c => c.GetType().Name == kind.Key)))
+            foreach ((string from, Unity.Component component) in kind.Zip(to.Components.Where(c => c is not KinefabMechanism && Class(c) == kind.Key)))
             {
                 PrefabFile.Record record = prefab.Documents[from];
                 foreach (string field in record.Fields.Keys.Where(f => !IsLeftOut(record.Class, f)))
@@ -123,6 +124,17 @@ internal sealed class PrefabComparison
                 var joint = (Unity.Joint)to;
                 Unity.Component? other = parts[0] == "m_ConnectedBody" ? joint.connectedBody : joint.connectedArticulationBody;
                 Assert.That(other == null! ? null : Path(other.transform), Is.EqualTo(value == "0" ? null : paths[value]), at);
+                return;
+            case "driven" or "drivenArticulationBody":
+                SameReference(value, (Unity.Component?)Member(to, record.Class, parts[0], at), at);
+                return;
+            case "terms" when parts.Length > 2:
+                KinefabCoupling.Term term = ((KinefabCoupling)to).terms[int.Parse(parts[1], CultureInfo.InvariantCulture)];
+                object? of = Member(term, record.Class, parts[2], at);
+                if (parts[2] is "joint" or "articulationBody")
+                    SameReference(value, (Unity.Component?)of, at);
+                else
+                    Assert.That(Number(of!), Is.EqualTo(Expected(value)).Within(Relative * Math.Abs(Expected(value)) + Least), at);
                 return;
             case "m_ConnectedAnchor" when record["m_AutoConfigureConnectedAnchor"] == "1":
                 return; // Unity's own value
@@ -164,6 +176,18 @@ internal sealed class PrefabComparison
         else
             Assert.That(Number(found!), Is.EqualTo(Expected(value)).Within(Math.Abs(Expected(value)) < 1e38 ? Relative * Math.Abs(Expected(value)) + Least : 0), at);
     }
+
+    private void SameReference(string value, Unity.Component? found, string at)
+    {
+        Assert.That(found == null! ? null : Path(found.transform), Is.EqualTo(value == "0" ? null : paths[value]), at);
+        if (found is Unity.Joint joint)
+        {
+            string[] same = [.. prefab.Documents.Where(d => d.Value.Class == joint.GetType().Name && paths[d.Key] == paths[value]).Select(d => d.Key)];
+            Assert.That(Array.IndexOf(same, value), Is.EqualTo(Array.FindIndex(found.gameObject.Components.Where(c => c.GetType() == joint.GetType()).ToArray(), c => ReferenceEquals(c, joint))), at);
+        }
+    }
+
+    private static string Class(Unity.Component component) => component is Unity.MonoBehaviour ? "MonoBehaviour" : component.GetType().Name;
 
     private static double Expected(string value) => value == "Infinity" ? double.PositiveInfinity : (float)double.Parse(value, CultureInfo.InvariantCulture);
 

@@ -46,6 +46,10 @@ public sealed partial record GameObject : DocumentObject
     [Since(1)]
     public string? Definition { get; init; }
 
+    /// <summary>What it is there for, where it is no part of the source; null for all others.</summary>
+    [Since(1)]
+    public GameObjectRole? Role { get; init; }
+
     /// <summary>The same, without the price of an interface.</summary>
     internal ReadOnlySpan<Component> ComponentSpan => components;
 

@@ -65,6 +65,10 @@ public sealed partial record SceneDocument : DocumentObject
     /// <summary>Relations between joint coordinates.</summary>
     public IReadOnlyList<Coupling> Couplings { get; init; } = Array.Empty<Coupling>();
 
+    /// <summary>Pairs of bodies that pass through each other by a rule of the source, beside those that a joint of its own keeps from colliding.</summary>
+    [Since(1)]
+    public IReadOnlyList<IgnoredCollision> IgnoredCollisions { get; init; } = Array.Empty<IgnoredCollision>();
+
     /// <summary>Animations.</summary>
     public IReadOnlyList<AnimationClip> Animations { get; init; } = Array.Empty<AnimationClip>();
 

@@ -14,4 +14,8 @@ public sealed partial record SceneSource : DocumentObject
 
     /// <summary>SHA-256 of the source file's bytes, lower-case hexadecimal.</summary>
     public string? Sha256 { get; init; }
+
+    /// <summary>Which of several states of the source it was, as the source names them: variants, configuration, keyframe; null for the only or usual one.</summary>
+    [Since(1)]
+    public string? Configuration { get; init; }
 }

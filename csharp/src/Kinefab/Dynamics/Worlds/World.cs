@@ -154,7 +154,7 @@ public sealed partial class World
     public WorldBody Body(string idOrName) => _names.Body(idOrName ?? throw new ArgumentNullException(nameof(idOrName)));
 
     /// <summary>
-    /// The joint that the CAD program calls so (Shaft), or that stands for a constraint that it calls so; else the one whose GameObject has the
+    /// The joint that the source calls so (Shaft), or that stands for a constraint that it calls so; else the one whose GameObject has the
     /// id or name, with [COMPONENT] behind it where that carries several. A <see cref="WorldJoint.Name"/> always finds its own.
     /// </summary>
     /// <param name="name">Such as Shaft, Lever/Crank:1, or Arm:2[3] for the fourth component of Arm:2.</param>
@@ -163,7 +163,7 @@ public sealed partial class World
     public WorldJoint Joint(string name) => _names.Joint(name ?? throw new ArgumentNullException(nameof(name)));
 
     /// <summary>A joint coordinate by its name: degrees (over any number of turns) or metres, zero at the start.</summary>
-    /// <param name="name">Such as Shaft, Slide.x or Lever/Crank:1.angle: the CAD program's name for the joint, else its GameObject's id or name, and the coordinate behind it where there are several.</param>
+    /// <param name="name">Such as Shaft, Slide.x or Lever/Crank:1.angle: the source's name for the joint, else its GameObject's id or name, and the coordinate behind it where there are several.</param>
     /// <exception cref="ArgumentException">None answers to the name, or several do: the message says which there are.</exception>
     public double this[string name]
     {

@@ -57,13 +57,12 @@ internal sealed class PositionEquations
         foreach (int j in _linkage.Tree.Closures)
         {
             JointModel joint = _linkage.Joints[j];
-            int count = joint.Prepare(Linkage.PoseOf(joint.Body0, poses), Linkage.PoseOf(joint.Body1, poses), _rows);
+            Pose body0 = Linkage.PoseOf(joint.Body0, poses), body1 = Linkage.PoseOf(joint.Body1, poses);
+            JointFrames.At(joint, body0, body1, out JointFrames frames);
+            int count = joint.PrepareLocked(frames, body0.Position, body1.Position, _rows);
             for (int i = 0; i < count; i++)
             {
-                if (!_rows[i].Has(RowFlags.Limit))
-                {
-                    AddJointRow(j, _rows[i], poses);
-                }
+                AddJointRow(j, _rows[i], poses);
             }
         }
 

@@ -1,4 +1,5 @@
 using System;
+using System.Runtime.InteropServices;
 using Kinefab.Joints;
 using Kinefab.Numerics;
 
@@ -23,6 +24,7 @@ internal sealed class TreeMotion
     private readonly Vector3d[] _anchors;
     private readonly int[] _translations;
     private readonly Pose[] _before;
+    private readonly Pose[] _found;
     private readonly bool[] _moved;
     private readonly ConstraintRow[] _rows = new ConstraintRow[JointModel.MaxRows];
 
@@ -44,7 +46,9 @@ internal sealed class TreeMotion
         _anchors = new Vector3d[n];
         _translations = new int[n];
         _before = new Pose[n];
+        _found = new Pose[n];
         _moved = new bool[n];
+        WorstError = double.PositiveInfinity;
     }
 
     /// <summary>For each freedom the velocity at the mechanism's origin, in its lengths.</summary>
@@ -57,7 +61,14 @@ internal sealed class TreeMotion
     public double WorstError { get; private set; }
 
     /// <summary>Closes the tree's joints and finds the freedoms' twists.</summary>
-    public void Start(Pose[] poses) => Move(poses, ReadOnlySpan<double>.Empty);
+    public void Start(Pose[] poses)
+    {
+        // Where the mechanism stands already and is closed, every bit would be the same again.
+        if (!(WorstError <= Closed) || !MemoryMarshal.AsBytes(poses.AsSpan()).SequenceEqual(MemoryMarshal.AsBytes(_found.AsSpan())))
+        {
+            Move(poses, ReadOnlySpan<double>.Empty);
+        }
+    }
 
     /// <summary>
     /// Moves the bodies by a step along the freedoms whose twists were last found (lengths of the mechanism and radians;
@@ -77,20 +88,23 @@ internal sealed class TreeMotion
                 moved = true;
             }
 
-            JointModel? joint = JointOf(body);
-            if (joint is not null)
-            {
-                moved |= Correct(joint, body, poses);
-            }
-
             if (moved)
             {
                 poses[body] = new Pose(poses[body].Position, poses[body].Rotation.Normalized());
             }
 
+            JointModel? joint = JointOf(body);
+            JointFrames frames = default;
+            if (joint is not null)
+            {
+                moved |= Correct(joint, body, poses, out frames);
+            }
+
             _moved[body] = moved;
-            FindTwists(joint, body, poses);
+            FindTwists(joint, body, poses[body], frames);
         }
+
+        Array.Copy(poses, _found, poses.Length);
     }
 
     private JointModel? JointOf(int body) => _tree.TreeJoints[body] < 0 ? null : _linkage.Joints[_tree.TreeJoints[body]];
@@ -131,24 +145,21 @@ internal sealed class TreeMotion
 
     // Newton's step of one joint's locked rows, moving the child alone: the linear rows' axes are orthonormal and the
     // angular ones orthogonal, so each row is answered by itself.
-    private bool Correct(JointModel joint, int body, Pose[] poses)
+    private bool Correct(JointModel joint, int body, Pose[] poses, out JointFrames frames)
     {
         bool moved = false;
         double previous = double.PositiveInfinity;
         for (int n = 0; ; n++)
         {
-            int count = joint.Prepare(Linkage.PoseOf(joint.Body0, poses), Linkage.PoseOf(joint.Body1, poses), _rows);
+            Pose body0 = Linkage.PoseOf(joint.Body0, poses), body1 = Linkage.PoseOf(joint.Body1, poses);
+            JointFrames.At(joint, body0, body1, out frames);
+            int count = joint.PrepareLocked(frames, body0.Position, body1.Position, _rows);
             Vector3d slide = Vector3d.Zero;
             Vector3d turn = Vector3d.Zero;
             double worst = 0;
             for (int i = 0; i < count; i++)
             {
                 ref ConstraintRow row = ref _rows[i];
-                if (row.Has(RowFlags.Limit))
-                {
-                    continue;
-                }
-
                 if (row.Has(RowFlags.Angular))
                 {
                     Vector3d answer = row.Angular1 * (row.GeometricError / row.Angular1.LengthSquared);
@@ -171,14 +182,14 @@ internal sealed class TreeMotion
             previous = worst;
             moved = true;
             double sign = _tree.ChildIsBody0[body] ? -1 : 1;
-            Vector3d anchor = Linkage.PoseOf(joint.Body1, poses).Point(joint.Frame1.Position);
+            Vector3d anchor = frames.P1;
             Quaterniond rotation = Quaterniond.AxisAngle(turn.Normalized(), sign * turn.Length);
             Pose pose = poses[body];
             poses[body] = new Pose(anchor + rotation * (pose.Position - anchor) + slide * sign, (rotation * pose.Rotation).Normalized());
         }
     }
 
-    private void FindTwists(JointModel? joint, int body, Pose[] poses)
+    private void FindTwists(JointModel? joint, int body, in Pose pose, in JointFrames frames)
     {
         int count = _tree.Freedoms[body];
         if (count == 0)
@@ -187,9 +198,8 @@ internal sealed class TreeMotion
         }
 
         int first = _firsts[body];
-        Pose pose0 = joint is null ? Pose.Identity : Linkage.PoseOf(joint.Body0, poses);
-        Pose pose1 = joint is null ? poses[body] : Linkage.PoseOf(joint.Body1, poses);
-        int translations = MotionSubspace.Directions(joint, _locked[body], pose0, pose1, _axes, first, out Vector3d anchor);
+        Vector3d anchor = joint is null ? pose.Position : frames.P1;
+        int translations = joint is null ? MotionSubspace.Free(_axes, first) : MotionSubspace.Directions(_locked[body], frames, _axes, first);
         _anchors[body] = anchor;
         _translations[body] = translations;
         Vector3d lever = (anchor - _linkage.Origin) * (1 / _linkage.Length);

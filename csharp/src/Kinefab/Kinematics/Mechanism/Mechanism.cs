@@ -175,7 +175,7 @@ public sealed partial class Mechanism
     }
 
     /// <summary>
-    /// Finds a coordinate by what the CAD program calls its joint (Shaft), else by its GameObject's id or name
+    /// Finds a coordinate by what the source calls its joint (Shaft), else by its GameObject's id or name
     /// (Lever/Crank:1), with [COMPONENT] behind either where the object carries several joints (Arm[3]), and with the coordinate
     /// behind that where the joint has several (Arm[3].angularX). A <see cref="MechanismCoordinate.Name"/> always finds its own.
     /// </summary>
@@ -210,7 +210,7 @@ public sealed partial class Mechanism
             nameof(idOrName));
     }
 
-    /// <summary>The coupling with an id: what the CAD program calls it.</summary>
+    /// <summary>The coupling with an id: what the source calls it.</summary>
     /// <param name="id">A <see cref="Coupling.Id"/>.</param>
     /// <returns>The coupling as the mechanism holds it.</returns>
     /// <exception cref="ArgumentException">None has it, or several have: the message says which there are.</exception>

@@ -47,7 +47,7 @@ public sealed class MechanismCoordinate
     public string Name { get; private set; } = "";
 
     /// <summary>
-    /// The shortest of the names that find it: what the CAD program calls its joint (Shaft), with the coordinate behind it where the
+    /// The shortest of the names that find it: what the source calls its joint (Shaft), with the coordinate behind it where the
     /// joint has several (Arm.angularX); else the GameObject's id, else <see cref="Name"/>.
     /// </summary>
     public string ShortName => _shortName ??= _names!.Short(_index);
@@ -71,15 +71,15 @@ public sealed class MechanismCoordinate
     public string Unit => IsAngle ? "deg" : "m";
 
     /// <summary>
-    /// A value of this coordinate as the CAD program shows it, as far as the file tells: the sense of hinges, of slides and of turns
+    /// A value of this coordinate as the source shows it, as far as the file tells: the sense of hinges, of slides and of turns
     /// about the axis of a slide; a file of format 1.0 tells no offset, so that zero is the exported pose.
     /// </summary>
     /// <param name="value">Unity's, degrees or metres.</param>
-    /// <returns>Degrees or metres, in the CAD program's sense.</returns>
+    /// <returns>Degrees or metres, in the source's sense.</returns>
     public double ToCad(double value) => _cad.Sign * value + _cad.Offset;
 
-    /// <summary>The value of this coordinate that the CAD program shows as another: the way back from <see cref="ToCad"/>.</summary>
-    /// <param name="shown">The CAD program's, degrees or metres.</param>
+    /// <summary>The value of this coordinate that the source shows as another: the way back from <see cref="ToCad"/>.</summary>
+    /// <param name="shown">The source's, degrees or metres.</param>
     /// <returns>Degrees or metres, left-handed sense, zero at the exported pose.</returns>
     public double FromCad(double shown) => _cad.Sign * (shown - _cad.Offset);
 

@@ -27,27 +27,26 @@ internal static class MotionSubspace
         return count;
     }
 
+    /// <summary>Directions of the freedoms of a body without a joint: the translations, then the rotations about its own origin.</summary>
+    /// <returns>Number of translations.</returns>
+    public static int Free(Vector3d[] axes, int at)
+    {
+        for (int i = 0; i < 3; i++)
+        {
+            axes[at + i] = axes[at + 3 + i] = Unit(i);
+        }
+
+        return 3;
+    }
+
     /// <summary>
-    /// Directions of the freedoms in the world: first the translations, then the rotations about <paramref name="anchor"/>.
+    /// Directions of a joint's freedoms in the world: first the translations, then the rotations about frame 1's origin.
     /// With one angular axis locked the two rotations are those that keep its equation (see D6Joint's LockedAxes): X1 and
     /// Z0 or Y0 for a swing, all that is at right angles to the quaternion's row for the twist.
     /// </summary>
     /// <returns>Number of translations.</returns>
-    public static int Directions(JointModel? joint, int lockedAxes, in Pose body0, in Pose body1, Vector3d[] axes, int at, out Vector3d anchor)
+    public static int Directions(int lockedAxes, in JointFrames f, Vector3d[] axes, int at)
     {
-        if (joint is null)
-        {
-            anchor = body1.Position;
-            for (int i = 0; i < 3; i++)
-            {
-                axes[at + i] = axes[at + 3 + i] = Unit(i);
-            }
-
-            return 3;
-        }
-
-        var f = new JointFrames(joint, body0, body1);
-        anchor = f.P1;
         int count = 0;
         for (int i = 0; i < 3; i++)
         {

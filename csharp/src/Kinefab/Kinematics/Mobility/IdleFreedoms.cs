@@ -1,5 +1,6 @@
 using System;
 using System.Collections.Generic;
+using System.Linq;
 using System.Threading;
 using Kinefab.Numerics;
 
@@ -14,14 +15,16 @@ internal sealed class IdleFreedoms
     private const double LeastMotion = 1e-6;
 
     private readonly Mechanism _mechanism;
+    private readonly IndependentLinkages _parts;
     private readonly DisjointSets _rigid;
     private readonly Dictionary<int, SortedSet<int>> _neighbours;
     private readonly Dictionary<int, List<int>> _members = new();
 
     /// <summary>Finds which bodies of a mechanism stand beside which.</summary>
-    public IdleFreedoms(Mechanism mechanism)
+    public IdleFreedoms(Mechanism mechanism, IndependentLinkages parts)
     {
         _mechanism = mechanism;
+        _parts = parts;
         _rigid = RigidGroups(mechanism);
         _neighbours = Neighbours(mechanism, _rigid);
         foreach (int body in mechanism.Tree.Order)
@@ -32,7 +35,7 @@ internal sealed class IdleFreedoms
                 _members.Add(group, members = new List<int>());
             }
 
-            members.Add(mechanism.GameObjects[body]);
+            members.Add(body);
         }
     }
 
@@ -59,7 +62,12 @@ internal sealed class IdleFreedoms
 
             foreach ((List<int> turning, int count) in SingleLoop.TurningAlone(new LoopMotions(loop, loop.Motions, movers, _rigid), _neighbours))
             {
-                yield return new IdleFreedom(GameObjects(turning), count);
+                // What hangs on them may have to move along.
+                int alone = HasOthersBeside(turning, velocities.Groups) ? Math.Min(count, Alone(turning, closed, cancellation)) : count;
+                if (alone > 0)
+                {
+                    yield return new IdleFreedom(GameObjects(turning), alone);
+                }
             }
 
             yield break;
@@ -68,14 +76,32 @@ internal sealed class IdleFreedoms
         foreach (List<int> leg in legs)
         {
             // What moves by itself seems to from the first; whether it does is asked with all else held.
-            int count = velocities.Count > RankWithout(leg, velocities)
-                ? new LoopMobility(loop.Part.Holding(body => leg.Contains(_rigid.Find(body))), closed, cancellation).Finite
-                : 0;
+            int count = velocities.Count > RankWithout(leg, velocities) ? Alone(leg, closed, cancellation) : 0;
             if (count > 0)
             {
                 yield return new IdleFreedom(GameObjects(leg), count);
             }
         }
+    }
+
+    // Freedoms of finite motion of some groups while all others stand still.
+    private int Alone(List<int> leg, MechanismState closed, CancellationToken cancellation)
+    {
+        var moving = new HashSet<int>();
+        foreach (int group in leg)
+        {
+            moving.UnionWith(_members[group]);
+        }
+
+        return new LoopMobility(_parts.Alone(moving), closed, cancellation).Finite;
+    }
+
+    // Whether anything stands beside some groups of a loop that is neither in the loop nor where it begins and ends.
+    private bool HasOthersBeside(List<int> some, List<int> loop)
+    {
+        var inside = new HashSet<int>(loop);
+        int? root = SingleLoop.Root(loop, _neighbours);
+        return some.Exists(group => _neighbours[group].Any(other => other != root && !inside.Contains(other)));
     }
 
     // Bodies that a tree joint without freedoms holds to their parent are one.
@@ -188,7 +214,10 @@ internal sealed class IdleFreedoms
         var objects = new List<int>();
         foreach (int group in leg)
         {
-            objects.AddRange(_members[group]);
+            foreach (int body in _members[group])
+            {
+                objects.Add(_mechanism.GameObjects[body]);
+            }
         }
 
         objects.Sort();

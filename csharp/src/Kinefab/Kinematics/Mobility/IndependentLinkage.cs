@@ -4,7 +4,7 @@ using Kinefab.Numerics;
 namespace Kinefab.Kinematics;
 
 /// <summary>
-/// A block of freedoms that loops and couplings tie together, as a linkage of its own: what it can do depends on nothing
+/// A block of freedoms that loops and couplings tie together, or some bodies, as a linkage of its own: what it can do depends on nothing
 /// else in the mechanism. What it hangs on stands still.
 /// </summary>
 internal sealed class IndependentLinkage
@@ -29,21 +29,6 @@ internal sealed class IndependentLinkage
 
     /// <summary>Its place in a body list of its own, from the mechanism's.</summary>
     public int IndexOf(int body) => Array.BinarySearch(Bodies, body);
-
-    /// <summary>The same with all bodies held where they stand but some.</summary>
-    /// <param name="isMoving">Of one of the mechanism's bodies: whether it moves.</param>
-    public IndependentLinkage Holding(Func<int, bool> isMoving)
-    {
-        KinematicTree tree = Linkage.Tree;
-        bool[] isFixed = Array.ConvertAll(Bodies, body => !isMoving(body));
-        var isClosure = new bool[Joints.Length];
-        for (int j = 0; j < isClosure.Length; j++)
-        {
-            isClosure[j] = tree.ChildOf[j] < 0;
-        }
-
-        return new IndependentLinkage(new Linkage(isFixed, Linkage.Joints, isClosure, Linkage.Coordinates, Linkage.Couplings, Linkage.Origin, Linkage.Length), Bodies, Joints, _coordinates);
-    }
 
     /// <summary>The part's own copy of a state.</summary>
     public MechanismState StateOf(MechanismState whole)

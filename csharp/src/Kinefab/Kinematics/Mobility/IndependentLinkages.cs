@@ -13,6 +13,8 @@ internal sealed class IndependentLinkages
     private readonly List<int>[] _movers;
     private readonly List<int>[] _joints;
     private readonly List<int>[] _couplings;
+    private readonly List<int>[] _jointsOf;
+    private readonly List<int>[] _couplingsOf;
 
     /// <summary>Of a linkage.</summary>
     /// <param name="whole">Which.</param>
@@ -25,6 +27,8 @@ internal sealed class IndependentLinkages
         _movers = Lists(blocks.Columns.Count);
         _joints = Lists(blocks.Columns.Count);
         _couplings = Lists(blocks.Columns.Count);
+        _jointsOf = Lists(whole.BodyCount);
+        _couplingsOf = Lists(whole.Joints.Length);
         Array.Fill(_blockOf, -1);
         foreach (int body in whole.Tree.Order)
         {
@@ -45,12 +49,17 @@ internal sealed class IndependentLinkages
         {
             int block = BlockOf(whole.Rows.Couplings[i]);
             Add(_couplings, block, i);
-            foreach (int term in whole.Couplings[i].Terms)
+            foreach (int joint in CoupledJoints(whole.Couplings[i]))
             {
-                Add(_joints, block, whole.Coordinates[term].Joint);
+                Add(_joints, block, joint);
+                _couplingsOf[joint].Add(i);
             }
+        }
 
-            Add(_joints, block, whole.Coordinates[whole.Couplings[i].Driven].Joint);
+        for (int joint = 0; joint < whole.Joints.Length; joint++)
+        {
+            Add(_jointsOf, whole.Joints[joint].Body0, joint);
+            Add(_jointsOf, whole.Joints[joint].Body1, joint);
         }
     }
 
@@ -98,7 +107,7 @@ internal sealed class IndependentLinkages
         }
 
         bodies.Remove(JointModel.World);
-        return Make(block, poses, moving, ToArray(bodies), ToArray(joints));
+        return Make(moving, ToArray(bodies), ToArray(joints), _couplings[block], joint => Joint(block, joint, poses));
 
         // What stands between two bodies of the block, the lower one's parent or a closing joint's end, moves with the upper one.
         void Carry(int body)
@@ -117,7 +126,57 @@ internal sealed class IndependentLinkages
         }
     }
 
-    private IndependentLinkage Make(int block, Pose[] poses, HashSet<int> moving, int[] bodies, int[] joints)
+    /// <summary>Some bodies with all that joins them to others, which stand still.</summary>
+    /// <param name="moving">The bodies.</param>
+    public IndependentLinkage Alone(HashSet<int> moving)
+    {
+        var joints = new SortedSet<int>();
+        foreach (int body in moving)
+        {
+            joints.UnionWith(_jointsOf[body]);
+        }
+
+        var couplings = new SortedSet<int>();
+        foreach (int joint in joints)
+        {
+            couplings.UnionWith(_couplingsOf[joint]);
+        }
+
+        foreach (int i in couplings)
+        {
+            joints.UnionWith(CoupledJoints(_whole.Couplings[i]));
+        }
+
+        var bodies = new SortedSet<int>(moving);
+        foreach (int joint in joints)
+        {
+            bodies.Add(_whole.Joints[joint].Body0);
+            bodies.Add(_whole.Joints[joint].Body1);
+        }
+
+        bodies.Remove(JointModel.World);
+        return Make(moving, ToArray(bodies), ToArray(joints), couplings, joint => _whole.Joints[joint]);
+    }
+
+    private IEnumerable<int> CoupledJoints(PositionCoupling coupling)
+    {
+        yield return _whole.Coordinates[coupling.Driven].Joint;
+        foreach (int term in coupling.Terms)
+        {
+            yield return _whole.Coordinates[term].Joint;
+        }
+    }
+
+    // As a block has it.
+    private JointModel Joint(int block, int joint, Pose[] poses)
+    {
+        int child = _whole.Tree.ChildOf[joint];
+        bool isHeld = child >= 0 && _whole.Tree.Freedoms[child] > 0 && _blockOf[child] != block;
+        return isHeld ? Held(_whole.Joints[joint], poses) : _whole.Joints[joint];
+    }
+
+    // jointOf: what stands for one of the whole's joints, between which bodies it is being no matter.
+    private IndependentLinkage Make(HashSet<int> moving, int[] bodies, int[] joints, IEnumerable<int> coupled, Func<int, JointModel> jointOf)
     {
         var isFixed = new bool[bodies.Length];
         for (int i = 0; i < bodies.Length; i++)
@@ -130,16 +189,14 @@ internal sealed class IndependentLinkages
         for (int j = 0; j < joints.Length; j++)
         {
             JointModel joint = _whole.Joints[joints[j]];
-            int child = _whole.Tree.ChildOf[joints[j]];
-            isClosure[j] = child < 0;
-            bool isHeld = child >= 0 && _whole.Tree.Freedoms[child] > 0 && _blockOf[child] != block;
-            own[j] = (isHeld ? Held(joint, poses) : joint).Between(IndexOf(joint.Body0), IndexOf(joint.Body1));
+            isClosure[j] = _whole.Tree.ChildOf[joints[j]] < 0;
+            own[j] = jointOf(joints[j]).Between(IndexOf(joint.Body0), IndexOf(joint.Body1));
         }
 
         var coordinates = new List<int>();
         var ownCoordinates = new List<MechanismCoordinate>();
         var couplings = new List<PositionCoupling>();
-        foreach (int i in _couplings[block])
+        foreach (int i in coupled)
         {
             PositionCoupling coupling = _whole.Couplings[i];
             couplings.Add(coupling.Between(Coordinate(coupling.Driven), Array.ConvertAll(coupling.Terms, Coordinate)));

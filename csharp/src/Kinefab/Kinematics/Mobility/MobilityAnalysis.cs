@@ -27,7 +27,7 @@ public static class MobilityAnalysis
         newton.Motion.Start(state.Poses);
         var blocks = new FreedomBlocks(mechanism.Linkage, newton.Firsts, newton.Motion.Linear.Length);
         var parts = new IndependentLinkages(mechanism.Linkage, blocks, newton.Firsts);
-        var idleFreedoms = new IdleFreedoms(mechanism);
+        var idleFreedoms = new IdleFreedoms(mechanism, parts);
         var loops = new LoopMobility[parts.Count];
         var idle = new List<IdleFreedom>();
         int[] redundant = RowsThatTieNothing(mechanism);

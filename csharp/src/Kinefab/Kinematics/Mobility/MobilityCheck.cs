@@ -59,7 +59,9 @@ public static class MobilityCheck
             }
         }
 
-        for (int i = 0; i < stated.Bodies.Count; i++)
+        // A body's freedoms are its velocities at the exported pose: where these are not the same, which is told, nor are they.
+        bool sameVelocities = (stated.FirstOrderMobility ?? counted.FirstOrder) == counted.FirstOrder;
+        for (int i = 0; sameVelocities && i < stated.Bodies.Count; i++)
         {
             BodyFreedom body = stated.Bodies[i];
             int? moved = scene.BodyOf(body.GameObject);

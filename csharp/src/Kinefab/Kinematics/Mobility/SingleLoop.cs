@@ -60,14 +60,36 @@ internal static class SingleLoop
         return found;
     }
 
+    /// <summary>Where a loop begins and ends, beside which two of its bodies stand; null where it is none.</summary>
+    /// <param name="groups">The loop's own bodies.</param>
+    /// <param name="neighbours">Bodies that joints connect with each, the one at rest included.</param>
+    public static int? Root(List<int> groups, Dictionary<int, SortedSet<int>> neighbours)
+    {
+        var inside = new HashSet<int>(groups);
+        var seen = new HashSet<int>();
+        foreach (int group in groups)
+        {
+            foreach (int other in neighbours[group])
+            {
+                if (!inside.Contains(other) && !seen.Add(other))
+                {
+                    return other;
+                }
+            }
+        }
+
+        return null;
+    }
+
     // The bodies in the order in which their loop joins them, from the one at rest and back to it.
     private static List<int> Ring(List<int> groups, Dictionary<int, SortedSet<int>> neighbours)
     {
         var inside = new HashSet<int>(groups);
         var ring = new List<int>();
+        int? root = Root(groups, neighbours);
         foreach (int group in groups)
         {
-            if (!inside.IsSupersetOf(neighbours[group]))
+            if (root is int beside && neighbours[group].Contains(beside))
             {
                 ring.Add(group);
                 break;

@@ -25,6 +25,33 @@ internal static class StructureRules
         }
     }
 
+    /// <summary>The ground is one, and a site is a frame and nothing else.</summary>
+    internal static void Roles(SceneDocument document, Findings findings)
+    {
+        ReadOnlySpan<GameObject> objects = document.GameObjectSpan;
+        int ground = -1;
+        for (int i = 0; i < objects.Length; i++)
+        {
+            var at = new Place(findings, "gameObjects", i);
+            if (objects[i].Role == GameObjectRole.Site && (objects[i].ComponentSpan.Length > 0 || objects[i].Parent is null))
+                at.Report("role", DiagnosticCodes.SiteNotAFrame);
+            if (objects[i].Role != GameObjectRole.Ground)
+                continue;
+            if (ground >= 0)
+                at.Report("role", DiagnosticCodes.GroundTwice, ("first", Invariant.Text(ground)));
+            else
+                ground = i;
+        }
+    }
+
+    /// <summary>Two GameObjects that are there.</summary>
+    internal static void Ignored(IgnoredCollision pair, int objects, in Place at)
+    {
+        bool isThere = NumberRules.Reference(at, "a", pair.A, "gameObjects", objects);
+        if (NumberRules.Reference(at, "b", pair.B, "gameObjects", objects) && isThere && pair.A == pair.B)
+            at.Report("b", DiagnosticCodes.IgnoredCollisionItself);
+    }
+
     /// <summary>A parent stands before its children, so there are no cycles.</summary>
     internal static void Parent(GameObject gameObject, int index, in Place at)
     {

@@ -75,6 +75,7 @@ namespace KinefabUnity.Editing
             KinefabFinding.Add(scene.Report, findings);
             KinefabFinding.AddLosses(scene.Document, findings);
 
+            scene = Ground.Apply(scene, settings.ground, findings);
             var external = GetExternalObjectMap();
             SceneBuilder builder = null;
             builder = new SceneBuilder(scene, settings, findings, i => Replaced(external, builder.Looks.Identities.Materials[i]));
@@ -107,9 +108,9 @@ namespace KinefabUnity.Editing
         private void Add(AssetImportContext ctx, SceneBuilder builder, GameObject root, List<KinefabFinding> findings)
         {
             ProjectFindings.Add(builder, settings, findings);
-            KinefabSource source = KinefabSource.Of(File.ReadAllBytes(FileUtil.GetPhysicalPath(ctx.assetPath)));
-            source.Tell(findings);
+            KinefabSource source = KinefabSource.Of(File.ReadAllBytes(FileUtil.GetPhysicalPath(ctx.assetPath)), settings.ground);
             builder.Move(source);
+            source.Tell(findings);
             var made = new List<(string Identifier, Object Object)>();
             Looks looks = builder.Looks;
             Collect(made, "meshes/", looks.Identities.Meshes, looks.Meshes);

@@ -13,6 +13,7 @@ namespace KinefabUnity.Editing
     public sealed class KinefabImporterEditor : ScriptedImporterEditor
     {
         private List<KinefabFinding> findings;
+        private string exported;
         private bool showsMaterials, showsFindings = true;
 
         /// <summary>Of Unity.</summary>
@@ -22,6 +23,7 @@ namespace KinefabUnity.Editing
             EditorGUILayout.PropertyField(serializedObject.FindProperty("settings"), true);
             serializedObject.ApplyModifiedProperties();
             var importer = (KinefabImporter)target;
+            Physics(importer);
             Materials(importer);
             Findings(importer);
             ApplyRevertGUI();
@@ -48,6 +50,21 @@ namespace KinefabUnity.Editing
             }
 
             return found;
+        }
+
+        // What "As Exported" is of this file.
+        private void Physics(KinefabImporter importer)
+        {
+            if (exported == null)
+            {
+                KinefabSource source = AssetDatabase.LoadAssetAtPath<KinefabSource>(importer.assetPath);
+                exported = source == null ? "" : source.DescribePhysics();
+            }
+
+            if (exported.Length > 0)
+            {
+                EditorGUILayout.HelpBox($"The file has {exported}.", MessageType.None);
+            }
         }
 
         private void Materials(KinefabImporter importer)

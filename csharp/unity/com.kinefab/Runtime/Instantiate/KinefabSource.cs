@@ -12,6 +12,9 @@ namespace KinefabUnity
         [SerializeField, HideInInspector]
         private byte[] text = new byte[0];
 
+        [SerializeField, HideInInspector]
+        private string ground = "";
+
         [SerializeField]
         private KinefabFinding[] findings = new KinefabFinding[0];
 
@@ -30,11 +33,14 @@ namespace KinefabUnity
             Time.fixedDeltaTime = (float)from.FixedTimestep;
         }
 
-        internal static KinefabSource Of(byte[] text)
+        /// <param name="text">The file.</param>
+        /// <param name="ground">What the settings name as ground.</param>
+        internal static KinefabSource Of(byte[] text, string ground)
         {
             KinefabSource source = CreateInstance<KinefabSource>();
             source.name = "Source";
             source.text = WithoutBuffers(text);
+            source.ground = ground;
             return source;
         }
 
@@ -65,8 +71,11 @@ namespace KinefabUnity
             }
 
             SceneValidation validation = SceneValidator.Validate(Bare(reading.Document));
-            return validation.Scene ?? throw new SceneFormatException(validation.Report);
+            return Ground.Apply(validation.Scene ?? throw new SceneFormatException(validation.Report), ground, null);
         }
+
+        /// <summary>What the file was exported with: 12 Rigidbodies and 14 joints.</summary>
+        internal string DescribePhysics() => Doc.SceneFile.Parse(text).Document is Doc.SceneDocument document ? PhysicsOfFile.Describe(document) : "";
 
         private static Doc.SceneDocument Bare(Doc.SceneDocument document)
         {

@@ -2,6 +2,7 @@ using System;
 using System.Collections.Generic;
 using System.Globalization;
 using System.Text;
+using Doc = Kinefab.Document;
 
 namespace KinefabUnity
 {
@@ -12,6 +13,20 @@ namespace KinefabUnity
     internal static class ObjectNames
     {
         private const int Digits = 6;
+
+        /// <summary>Of the objects of a file, in its order.</summary>
+        internal static string[] Of(Doc.SceneDocument document)
+        {
+            var parents = new int[document.GameObjects.Count];
+            string[] names = new string[parents.Length], ids = new string[parents.Length];
+            for (int i = 0; i < parents.Length; i++)
+            {
+                Doc.GameObject from = document.GameObjects[i];
+                (parents[i], names[i], ids[i]) = (from.Parent ?? -1, from.Name, from.Id);
+            }
+
+            return Of(parents, names, ids);
+        }
 
         /// <summary>Of objects by their parents, names and ids, in one order; a parent of -1 is none.</summary>
         internal static string[] Of(IReadOnlyList<int> parents, IReadOnlyList<string> names, IReadOnlyList<string> ids)

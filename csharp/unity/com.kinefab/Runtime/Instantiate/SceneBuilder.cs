@@ -17,6 +17,7 @@ namespace KinefabUnity
         private readonly KinefabSettings settings;
         private readonly List<KinefabFinding> findings;
         private readonly string[] names;
+        private readonly Dictionary<(int Object, int Component), Component> made = new Dictionary<(int Object, int Component), Component>();
         private readonly List<AnimationClip> clips = new List<AnimationClip>();
         private GameObject root;
         private Placement placement;
@@ -33,10 +34,7 @@ namespace KinefabUnity
             document = scene.Document;
             Looks = new Looks(scene, settings, findings, replaced);
             Objects = new GameObject[document.GameObjects.Count];
-            names = ObjectNames.Of(
-                List(o => o.Parent ?? -1),
-                List(o => o.Name),
-                List(o => o.Id));
+            names = ObjectNames.Of(document);
         }
 
         /// <summary>In the order of the file, so that its indices hold.</summary>
@@ -76,11 +74,19 @@ namespace KinefabUnity
         {
             for (int i = 0; i < Objects.Length; i++)
             {
-                if (scene.Body(i) != null)
+                if (scene.Body(i) == null)
                 {
-                    root.AddComponent<KinefabMechanism>().Bind(source, Array.ConvertAll(Objects, made => made.transform));
-                    return;
+                    continue;
                 }
+
+                KinefabMechanism mechanism = root.AddComponent<KinefabMechanism>();
+                mechanism.Bind(source, Array.ConvertAll(Objects, part => part.transform));
+                if (mechanism.Freedoms.Count == 0)
+                {
+                    findings.Add(KinefabFinding.Of("UNITY_NOTHING_MOVES", ""));
+                }
+
+                return;
             }
         }
 
@@ -134,13 +140,22 @@ namespace KinefabUnity
 
             root.transform.SetParent(parent, worldPositionStays: false);
             placement = new Placement(parent, findings);
+            if (settings.physics == KinefabPhysics.Articulation && PhysicsOfFile.HasJoints(document))
+            {
+                findings.Add(KinefabFinding.Of("UNITY_PHYSICS_AS_EXPORTED", "", ("has", PhysicsOfFile.Describe(document))));
+            }
+
             if (settings.physics != KinefabPhysics.None)
             {
                 Bodies();
             }
 
             Components();
-            Ground();
+            if (settings.physics != KinefabPhysics.None)
+            {
+                new CouplingFields(scene, Objects, made, placement.Scale, findings).Make();
+            }
+
             Animate();
             for (int i = 0; i < Objects.Length; i++)
             {
@@ -185,15 +200,19 @@ namespace KinefabUnity
         {
             for (int i = 0; i < Objects.Length; i++)
             {
-                foreach (Doc.Component component in document.GameObjects[i].Components)
+                IReadOnlyList<Doc.Component> components = document.GameObjects[i].Components;
+                for (int c = 0; c < components.Count; c++)
                 {
-                    if (component is Doc.Rigidbody body)
+                    Doc.Component component = components[c];
+                    if (component is Doc.ArticulationBody link && settings.physics != KinefabPhysics.Joints)
                     {
-                        BodyFields.Set(Objects[i].AddComponent<Rigidbody>(), body, document.Physics, placement);
+                        var body = Objects[i].AddComponent<ArticulationBody>();
+                        BodyFields.Set(body, link, document.Physics, placement, scene.IsRootLink(i));
+                        made[(i, c)] = body;
                     }
-                    else if (component is Doc.ArticulationBody link)
+                    else if (component is Doc.Rigidbody || component is Doc.ArticulationBody)
                     {
-                        BodyFields.Set(Objects[i].AddComponent<ArticulationBody>(), link, document.Physics, placement, scene.IsRootLink(i));
+                        BodyFields.Set(Objects[i].AddComponent<Rigidbody>(), scene.Body(i), document.Physics, placement);
                     }
                 }
             }
@@ -205,9 +224,18 @@ namespace KinefabUnity
             var joints = new JointFields(Objects, placement, findings);
             for (int i = 0; i < Objects.Length; i++)
             {
-                foreach (Doc.Component component in document.GameObjects[i].Components)
+                IReadOnlyList<Doc.Component> components = document.GameObjects[i].Components;
+                for (int c = 0; c < components.Count; c++)
                 {
-                    Add(component, Objects[i], document.GameObjects[i].Id, joints);
+                    if (!(components[c] is Doc.ArticulationBody))
+                    {
+                        Add(components[c], i, c, joints);
+                    }
+                    else if (settings.physics == KinefabPhysics.Joints && !scene.IsRootLink(i))
+                    {
+                        // What keeps a link on the one above it, as a joint.
+                        Add(scene.Joint(new Doc.JointCoordinate { GameObject = i, Component = c }), i, c, joints);
+                    }
                 }
 
                 if (i % Told == 0)
@@ -219,8 +247,10 @@ namespace KinefabUnity
             Progress?.Invoke(1);
         }
 
-        private void Add(Doc.Component component, GameObject to, string id, JointFields joints)
+        private void Add(Doc.Component component, int index, int place, JointFields joints)
         {
+            GameObject to = Objects[index];
+            string id = document.GameObjects[index].Id;
             switch (component)
             {
                 case Doc.MeshFilter filter:
@@ -240,15 +270,22 @@ namespace KinefabUnity
                 case Doc.Joint _ when settings.physics == KinefabPhysics.None:
                     break;
                 case Doc.HingeJoint hinge:
-                    joints.Set(to.AddComponent<HingeJoint>(), hinge);
+                    joints.Set(Made<HingeJoint>(index, place), hinge);
                     break;
                 case Doc.ConfigurableJoint configurable:
-                    joints.Set(to.AddComponent<ConfigurableJoint>(), configurable);
+                    joints.Set(Made<ConfigurableJoint>(index, place), configurable);
                     break;
                 case Doc.FixedJoint rigid:
-                    joints.Set(to.AddComponent<FixedJoint>(), rigid);
+                    joints.Set(Made<FixedJoint>(index, place), rigid);
                     break;
             }
+        }
+
+        private T Made<T>(int index, int place) where T : Joint
+        {
+            T joint = Objects[index].AddComponent<T>();
+            made[(index, place)] = joint;
+            return joint;
         }
 
         private void Set(MeshRenderer to, Doc.MeshRenderer from)
@@ -261,36 +298,6 @@ namespace KinefabUnity
 
             to.sharedMaterials = materials;
             to.enabled = from.Enabled;
-        }
-
-        private void Ground()
-        {
-            if (string.IsNullOrEmpty(settings.ground))
-            {
-                return;
-            }
-
-            bool isFound = false;
-            for (int i = 0; i < Objects.Length; i++)
-            {
-                if (document.GameObjects[i].Id == settings.ground || names[i] == settings.ground)
-                {
-                    isFound = true;
-                    if (Objects[i].GetComponent<Rigidbody>() is Rigidbody body && body != null)
-                    {
-                        body.isKinematic = true;
-                    }
-                    else if (Objects[i].GetComponent<ArticulationBody>() is ArticulationBody link && link != null && scene.IsRootLink(i))
-                    {
-                        link.immovable = true;
-                    }
-                }
-            }
-
-            if (!isFound)
-            {
-                findings.Add(KinefabFinding.Of("UNITY_GROUND_UNKNOWN", "", ("ground", settings.ground)));
-            }
         }
 
         private void Animate()
@@ -358,17 +365,6 @@ namespace KinefabUnity
             }
 
             return false;
-        }
-
-        private T[] List<T>(Func<Doc.GameObject, T> of)
-        {
-            var found = new T[document.GameObjects.Count];
-            for (int i = 0; i < found.Length; i++)
-            {
-                found[i] = of(document.GameObjects[i]);
-            }
-
-            return found;
         }
     }
 }

@@ -9,7 +9,7 @@ namespace KinefabUnity
 {
     /// <summary>
     /// The joints' own drives sent to where the freedoms stand. A drive that the joint has keeps its strength; one that it has not is
-    /// lent the same that <see cref="Kinefab.KinefabCoupling"/> lends. Given back as they were.
+    /// lent the same that <see cref="KinefabCoupling"/> lends. Given back as they were.
     /// </summary>
     internal sealed class JointTargets
     {
@@ -38,21 +38,22 @@ namespace KinefabUnity
                     if (link != null)
                     {
                         Add(freedom.Coordinate, coordinate.Coordinate, link);
+                        continue;
                     }
-
-                    continue;
                 }
 
+                // A link that was imported as a joint has it in its own place.
+                bool isLinkJoint = part.GetComponent<ArticulationBody>() == null && !mechanism.Scene.IsRootLink(coordinate.GameObject);
                 int number = 0;
                 for (int i = 0; i < coordinate.Component; i++)
                 {
-                    number += from.Components[i] is Doc.Joint ? 1 : 0;
+                    number += from.Components[i] is Doc.Joint || (isLinkJoint && from.Components[i] is Doc.ArticulationBody) ? 1 : 0;
                 }
 
                 Joint[] joints = part.GetComponents<Joint>();
                 if (number < joints.Length)
                 {
-                    double zero = coordinate.Coordinate <= Doc.Coordinate.Z && from.Components[coordinate.Component] is Doc.ConfigurableJoint
+                    double zero = coordinate.Coordinate <= Doc.Coordinate.Z && !(from.Components[coordinate.Component] is Doc.HingeJoint)
                         ? mechanism.Scene.AnchorGap(coordinate.GameObject, coordinate.Component)[coordinate.Coordinate - Doc.Coordinate.X]
                         : 0;
                     Add(freedom.Coordinate, coordinate.Coordinate, joints[number], zero);

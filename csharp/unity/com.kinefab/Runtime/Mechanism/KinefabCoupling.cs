@@ -2,7 +2,7 @@ using System;
 using System.Collections.Generic;
 using UnityEngine;
 
-namespace Kinefab
+namespace KinefabUnity
 {
     /// <summary>
     /// Keeps a joint coordinate at a linear function of others: gears, belts, racks, screws, mimics.
@@ -89,6 +89,13 @@ namespace Kinefab
             {
                 _release();
             }
+        }
+
+        /// <summary>Counts all coordinates from where the parts stand now: for whoever makes the joints anew there.</summary>
+        public void TakeZero()
+        {
+            _isReady = false;
+            Prepare();
         }
 
         private bool IsThere => driven != null || drivenArticulationBody != null;

@@ -197,6 +197,11 @@ namespace KinefabUnity
                 part.SetActive(true);
             }
 
+            foreach (KinefabCoupling coupling in _root.GetComponentsInChildren<KinefabCoupling>(true))
+            {
+                coupling.TakeZero();
+            }
+
             PutAll(_motion.State);
         }
 

@@ -11,6 +11,12 @@ namespace KinefabUnity
 
         /// <summary>None: parts are moved by KinefabMechanism alone.</summary>
         None = 1,
+
+        /// <summary>Rigidbodies with joints; of links of an articulation a ConfigurableJoint each.</summary>
+        Joints = 2,
+
+        /// <summary>ArticulationBodies, where the file has them. Of joints the export makes them, as links need another hierarchy.</summary>
+        Articulation = 3,
     }
 
     /// <summary>How a <c>.kinefab</c> file becomes objects. There is no scale: the file is in metres, as Unity is.</summary>
@@ -18,7 +24,7 @@ namespace KinefabUnity
     public sealed class KinefabSettings
     {
         /// <summary>What becomes of bodies and joints.</summary>
-        [Tooltip("As the file has them, or none: then KinefabMechanism alone moves the parts.")]
+        [Tooltip("As the file has them; none: KinefabMechanism alone moves the parts; joints also in the place of an articulation; articulation where the file has one.")]
         public KinefabPhysics physics = KinefabPhysics.AsExported;
 
         /// <summary>Name or id of a part that stands still; empty: those that the file says.</summary>

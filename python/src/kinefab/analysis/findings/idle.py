@@ -72,21 +72,27 @@ def _idle_in(
     if moving is None:
         return []  # a coupling between joints of the loop, or nothing to be told
     alone = tied_parts(assembly, moving)[number].freedom
-    return _turning_in_a_loop(assembly, alone, _ring(tied.root, neighbours, legs[0]))
+    rows, ring = assembly.freedoms[part].rows, _ring(tied.root, neighbours, legs[0])
+    found = _turning_in_a_loop(assembly, alone, ring)
+    loop = {tied.root, *ring}
+    for i, (bodies, count) in enumerate(found):
+        if any(neighbours[body] - loop for body in bodies):  # what hangs on them may have to move along
+            found[i] = bodies, min(count, _with_all_else_held(assembly, rows, bodies))
+    return [(bodies, count) for bodies, count in found if count]
 
 
 def _with_all_else_held(assembly: Assembly, of_block: IntArray, leg: list[int]) -> int:
-    """Freedoms of finite motion that a leg's bodies have while all others of their block stand still.
+    """Freedoms of finite motion that a leg's bodies have while all others stand still, those that hang on them too.
 
-    of_block: the block's rows; what else hangs on the leg is carried along."""
+    of_block: the block's rows."""
     system, bodies = assembly.system, np.array(sorted(leg))
     across = system.body_a != system.body_b  # inside a body all stands still, though a coupling counts from it
     own = across & (np.isin(system.body_a, bodies) | np.isin(system.body_b, bodies))
-    rows = np.intersect1d(system.row[own], of_block)
-    there = across & np.isin(system.row, rows)
-    beside = {*system.body_a[there].tolist(), *system.body_b[there].tolist()} - set(leg)
-    if len(leg) == 1 and len(beside) < 2:
-        return 0  # the end of a chain
+    rows = np.unique(system.row[own])
+    if len(leg) == 1:
+        there = across & np.isin(system.row, np.intersect1d(rows, of_block))
+        if len({*system.body_a[there].tolist(), *system.body_b[there].tolist()} - set(leg)) < 2:
+            return 0  # the end of a chain
     solver = Solver(system.part(np.flatnonzero(np.isin(system.row, rows)), rows, bodies))
     start = solver.system.start()
     return sum(f.mobility for f in finite_freedoms(solver, block_freedoms(solver, start), start))

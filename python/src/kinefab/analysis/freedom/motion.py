@@ -206,13 +206,27 @@ def _searched(solver: Solver, part: int, first_order: BlockFreedom) -> FiniteFre
     there = block_freedoms(solver, away)
     if there[part].mobility * len(first_order.basis) > MOST_WORK:
         return _found_far_away(solver, part, there, away)
-    tangent = _survivors(solver, part, there[part], away)
+    tangent = _beyond_doubt(solver, part, there[part], away)
     if tangent.shape[1] == 0:
         return FiniteFreedom(*_with_bodies_at_rest(solver, first_order, start), True)
     if first_order.mobility > MOST_DIRECTIONS:
         return FiniteFreedom(tangent.shape[1], tangent, True)
     here = _survivors(solver, part, first_order, start)
     return FiniteFreedom(tangent.shape[1], here if here.shape[1] == tangent.shape[1] else tangent, True)
+
+
+def _beyond_doubt(solver: Solver, part: int, freedom: BlockFreedom, state: State) -> Array:
+    """As ``_survivors``; while some velocity keeps a part of itself only, as where two branches of motions touch each other, from
+    poses further away."""
+    for further in range(MOST_FURTHER):
+        if not freedom.mobility:
+            break
+        ways, share = _kept(solver, part, freedom, state, STEP)
+        if further == MOST_FURTHER - 1 or not np.any((share > DIRECTION) & (share < WHOLE)):
+            return ways[:, share > DIRECTION]
+        state, there = _further(solver, part, freedom, state)
+        freedom = there[part]
+    return np.zeros((6 * len(freedom.bodies), 0))
 
 
 def _found_far_away(

@@ -5,5 +5,5 @@ from __future__ import annotations
 from ...options import FormatOption
 
 KEYFRAME = FormatOption(
-    "keyframe", "Take the pose and the controls of this keyframe, by name or number.", metavar="NAME"
+    "keyframe", "Take the pose and the controls of this keyframe, by name or number.", metavar="NAME", chooses=True
 )

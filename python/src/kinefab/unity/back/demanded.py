@@ -20,6 +20,7 @@ def demand_sound(scene: UnityScene) -> None:
     for coupling in scene.couplings:
         for at in (coupling.coordinate, *(term.coordinate for term in coupling.terms)):
             _demand_joint(at, objects)
+    _demand_within((index for pair in scene.ignoredCollisions for index in (pair.a, pair.b)), len(objects))
     for clip in scene.animations:
         _demand_within((track.gameObject for track in clip.tracks), len(objects))
         for track in clip.tracks:

@@ -12,7 +12,7 @@ import numpy as np
 from ...model import MOTOR_DAMPING, RX, Drive, Freedom, Motion, Passive, SphericalDrive
 from ...spatial import matrix_from_quaternion, rotation_exp, rotation_log
 from .. import frames
-from ..scene.joints.configurable_joint import TWIST_RANGE
+from ..scene.joints.configurable_joint import SWING_RANGES, TWIST_RANGE
 from ..scene.joints.joint import UNLIMITED_FORCE
 
 Entry = Mapping[str, Any]
@@ -122,9 +122,10 @@ def _with_drive(freedom: Freedom, drive: Entry, target: float, velocity: float) 
 
 
 def _limited(component: Entry, i: int, freedom: Freedom) -> Freedom:
-    if i == RX and (beyond := component.get("extras", {}).get(TWIST_RANGE)) is not None:
-        ends = sorted(float(frames.angle(math.radians(end))) for end in beyond)
-        return Freedom(Motion.LIMITED, ends[0], ends[1])
+    if i >= RX and (stated := component.get("extras", {}).get((TWIST_RANGE, *SWING_RANGES)[i - RX])) is not None:
+        sign = frames.Senses.of(b_in_a=True).angular[i - RX]
+        ends = sorted(sign * math.radians(end) for end in stated)
+        freedom = replace(freedom, motion=Motion.LIMITED, lower=ends[0], upper=ends[1])
     if freedom.motion is not Motion.LIMITED:
         return freedom
     names = (

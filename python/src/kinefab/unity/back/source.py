@@ -17,7 +17,6 @@ import numpy as np
 from ...diagnostics import FeatureOutcome, Outcome, Report, Severity
 from ...model import (
     AnimationClip,
-    Apart,
     Body,
     Coupling,
     Dynamics,
@@ -42,6 +41,7 @@ from ..joints.passive import with_passive_drives
 from ..mapping import GROUND_ID
 from ..scene import ArticulationBody, Collider, GameObject, Material, Mesh, MeshFilter, MeshRenderer, Rigidbody, UnityScene
 from ..scene.joints.configurable_joint import APART
+from .pairs import pairs_apart
 from .restored import Restored, restored
 from .scene_file import read_buffers, read_scene_file, unsound_as_finding
 from .shapes import shape_of
@@ -54,9 +54,10 @@ _REPEATS = {word: repeat for repeat, word in WRAP.items()}
 
 @dataclass(slots=True, eq=False)
 class WrittenScene(Scene):
-    """written: the same in Unity's terms, as it stands in the file."""
+    """written: the same in Unity's terms, as it stands in the file.  path: the file's name."""
 
     written: UnityScene = field(default_factory=UnityScene)
+    path: str = ""
 
     def as_written(self, links: bool, options: ExportOptions, report: Report) -> UnityScene | None:
         """What is in the file, where nothing is asked for that it was not made with; None where it is to be made anew.
@@ -72,9 +73,21 @@ class WrittenScene(Scene):
         )
         if anew or (links and not has_links):
             return None
+        if options.solve:
+            self._tell_unused("solve", report)
         for joint in () if has_links else self.joints:  # no joint of Unity's has a field for it, as where they are made anew
             with_passive_drives(joint, report)
         return self.written
+
+    def tell_unused(self, options: ExportOptions, report: Report) -> None:
+        """What is asked of geometry and masses, which a written scene states."""
+        usual = ExportOptions()
+        for name in ("colliders", "density", "smooth"):
+            if getattr(options, name) != getattr(usual, name):
+                self._tell_unused(name, report)
+
+    def _tell_unused(self, name: str, report: Report) -> None:
+        report.add("SOURCE_OPTION_UNUSED", self.path, option=name, format="a written scene")
 
 
 def read(path: Path, report: Report, request: object) -> WrittenScene:
@@ -86,6 +99,7 @@ def read(path: Path, report: Report, request: object) -> WrittenScene:
     with unsound_as_finding(path):
         scene = unity_scene(document, read_buffers(path, document), report)
         made = _Nodes(document, scene).scene()
+    made.path = path.name
     for entry in document.get("report", ()):
         report.outcomes.append(_outcome(entry))
     return made
@@ -112,7 +126,7 @@ class _Nodes:
         for index, entry in enumerate(self.objects):
             if entry.parent is not None:
                 self.children[entry.parent].append(index)
-        self.ground = next((i for i, entry in enumerate(self.objects) if entry.id == GROUND_ID), None)
+        self.ground = next((i for i, entry in enumerate(self.objects) if entry.role == "ground" or entry.id == GROUND_ID), None)
         self.placed = {i: kind for i in range(len(self.objects)) if (kind := self._place_of(i))}
         kept = [i for i in range(len(self.objects)) if i != self.ground and i not in self.placed]
         self.node_of = {index: node for node, index in enumerate(kept)}
@@ -140,7 +154,7 @@ class _Nodes:
             joints=joints,
             couplings=couplings,
             animations=self._clips(),
-            source=Source(source.uri, source.upAxis, source.metersPerUnit, source.sha256),
+            source=Source(source.uri, source.upAxis, source.metersPerUnit, source.sha256, configuration=source.configuration),
             physics=Physics(
                 _three(frames.direction(physics.gravity)),
                 physics.fixedTimestep,
@@ -148,7 +162,7 @@ class _Nodes:
                 physics.solverVelocityIterations,
             ),
             extras=extras,
-            apart=self._apart(),
+            apart=pairs_apart(written, self.node_of),
             written=written,
         )
 
@@ -157,6 +171,8 @@ class _Nodes:
         entry = self.objects[index]
         if entry.parent is None or self.children[index] or not entry.active:
             return ""
+        if entry.role == "site":
+            return "site"
         above = self.objects[entry.parent].id
         kind = entry.id.removeprefix(f"{above}/").partition(":")[0] if entry.id.startswith(f"{above}/") else ""
         drawn = all(isinstance(c, (MeshFilter, MeshRenderer, Collider)) for c in entry.components)
@@ -293,31 +309,6 @@ class _Nodes:
         if index == self.ground:
             return None, self.back.poses[index] @ frame
         return self.node_of[index], frame
-
-    def _apart(self) -> list[Apart]:
-        """Pairs that pass through each other, by the ids that the file lists; the reason stands on the joint that holds nothing."""
-        node = {self.objects[index].id: number for index, number in self.node_of.items()}
-        reasons: dict[frozenset[str], str] = {}
-        for entry in self.objects:
-            for c in entry.components:
-                extras: Mapping[str, Any] = getattr(c, "extras", {})
-                connected = getattr(c, "connectedBody", None)
-                if APART in extras and connected is not None:
-                    reasons[frozenset((entry.id, self.objects[connected].id))] = str(extras[APART])
-        listed = self.written.extras.get("ignoreCollision")
-        pairs: list[tuple[str, str]] = []
-        for pair in listed if isinstance(listed, list) else ():
-            if isinstance(pair, list) and len(pair) == 2 and all(name in node for name in pair):
-                pairs.append((pair[0], pair[1]))
-        known = {frozenset(pair) for pair in pairs}
-        pairs += [
-            (one, other) for one, other in (tuple(sorted(pair)) for pair in reasons if pair not in known)
-        ]
-        return [
-            Apart(node[a], node[b], reasons.get(frozenset((a, b)), "ignoreCollision"), stated=False)
-            for a, b in pairs
-            if a in node and b in node
-        ]
 
     def _clips(self) -> list[AnimationClip]:
         return [

@@ -17,6 +17,7 @@ from ..scene import (
     Coupling,
     CouplingTerm,
     GameObject,
+    IgnoredCollision,
     JointCoordinate,
     Mesh,
     Mobility,
@@ -107,6 +108,9 @@ def unity_scene(document: Entry, buffers: Sequence[bytes], report: Report) -> Un
             for entry in document.get("physicsMaterials", ())
         ),
         couplings=tuple(_coupling(i, entry) for i, entry in enumerate(document.get("couplings", ()))),
+        ignoredCollisions=tuple(
+            told(IgnoredCollision, entry, "pair that does not collide", report) for entry in document.get("ignoredCollisions", ())
+        ),
         animations=tuple(noun(AnimationClip, entry) for entry in document.get("animations", ())),
         constraints=tuple(noun(Constraint, entry) for entry in document.get("constraints", ())),
         analysis=None if analysis is None else noun(Mobility, analysis),

@@ -17,7 +17,7 @@ from ...model import MOTOR_DAMPING, RX, Drive, Freedom, Joint, Motion, Spherical
 from ...spatial import Array, quaternion_from_matrix, rotation_exp, rotation_log
 from ..frames import Senses
 from ..scene import JointDrive, SoftJointLimit, SoftJointLimitSpring
-from ..scene.joints.configurable_joint import MOTION_FIELDS, TWIST_RANGE
+from ..scene.joints.configurable_joint import MOTION_FIELDS, SWING_RANGES, TWIST_RANGE
 from ..scene.vectors import quaternion4, vector3
 from .coordinates import CanonicalJoint, Coordinates
 from .limits import feature_of, may_wrap, one_sided, report_outside
@@ -181,6 +181,8 @@ def _swing_limits(w: _Writing, motions: list[Motion]) -> None:
                 high=f"{upper:g}",
                 half=f"{half:g}",
             )
+            ends = sorted(w.senses.angular[i] * end for end in (lower, upper))
+            w.fields.setdefault("extras", {})[SWING_RANGES[i - 1]] = ends
         key = "angularYLimit" if i == 1 else "angularZLimit"
         w.fields[key] = SoftJointLimit(half, bounce)
     kept = {i: half for i, half in halves.items() if motions[RX + i] is Motion.LIMITED}

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Mapping
 from dataclasses import replace
 from typing import Any, cast
 
@@ -16,7 +17,7 @@ from ..scene import (
     JointDrive,
     Rigidbody,
 )
-from ..scene.joints.configurable_joint import TWIST_RANGE
+from ..scene.joints.configurable_joint import SWING_RANGES, TWIST_RANGE
 
 ARTICULATION = "an articulation"
 MOTOR_DAMPING = 1e7
@@ -60,6 +61,24 @@ def twist_range(joint: Joint) -> tuple[float, float] | None:
         return None
     low, high = cast("list[float]", stated)
     return (low, high) if -MOST_TURN <= low and high <= MOST_TURN else None
+
+
+def counts_as_link(joint: Joint, on_child: bool) -> bool:
+    """Whether a component counts the child in the parent, as the link that stands for it does; where it counts the other way round,
+    the twist turns its swings into each other.  on_child: whether the component is on the link's own body."""
+    return isinstance(joint, ConfigurableJoint) and joint.swapBodies == on_child
+
+
+def swung(moving: Mapping[str, Any], joint: Joint, on_child: bool) -> dict[str, Any]:
+    """The fields of a spherical link with the uneven ends of its swings, which a ConfigurableJoint that counts alike does not hold."""
+    found = dict(moving)
+    # of a component on the parent the link's frame is turned round about Y
+    for name, key, sense in zip(("yDrive", "zDrive"), SWING_RANGES, (1.0, 1.0 if on_child else -1.0)):
+        stated = joint.extras.get(key)
+        if isinstance(stated, list) and len(cast("list[float]", stated)) == 2:
+            low, high = sorted(sense * end for end in cast("list[float]", stated))
+            found[name] = replace(found[name], lowerLimit=low, upperLimit=high)
+    return found
 
 
 def _slide_drive(joint: ConfigurableJoint, start: float) -> ArticulationDrive:

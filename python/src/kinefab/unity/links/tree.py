@@ -35,7 +35,15 @@ from ..scene import (
 from ..scene.joints.joint import AnchoredJoint
 from ..scene.vectors import quaternion4, vector3
 from .bounds import bounded
-from .motions import ARTICULATION, NotArticulated, link_motion, tell_link_losses, twist_range
+from .motions import (
+    ARTICULATION,
+    NotArticulated,
+    counts_as_link,
+    link_motion,
+    swung,
+    tell_link_losses,
+    twist_range,
+)
 from .order import with_parents_first
 
 ARTICULATION_GROUND_ID = "kinefab:articulation ground"
@@ -233,7 +241,11 @@ class _Articulation:
             self.report.dropped(f"joint {told['joint']}", "ARTICULATION_IMPOSSIBLE", **told)
             return link
         if moving["jointType"] == "Revolute" and twist_range(joint) is not None:
-            self._tell_range(joint)
+            self._tell_range(joint, "JOINT_LIMIT_BEYOND_TURN")
+        if moving["jointType"] == "Spherical" and counts_as_link(joint, edge[0] == child):
+            moving = swung(moving, joint, edge[0] == child)
+            for code in ("JOINT_LIMIT_ASYMMETRIC", "JOINT_LIMIT_ELEVATION"):
+                self._tell_range(joint, code)
         if moving["jointType"] != "Fixed" and (stated := self.joints.get(joint.id)) is not None:
             moving = bounded(moving, stated, self.report)
         named = {"name": joint.name} if joint.name else {}
@@ -268,10 +280,10 @@ class _Articulation:
             "parentAnchorRotation": quaternion4(quaternion_from_matrix(outer.rotation)),
         }
 
-    def _tell_range(self, joint: Joint) -> None:
+    def _tell_range(self, joint: Joint, code: str) -> None:
         """A link holds the range that was told as lost, as no ConfigurableJoint does."""
         feature, stated = f"joint {joint.id}", self.joints.get(joint.id)
-        self.report.withdraw(feature, "JOINT_LIMIT_BEYOND_TURN")
+        self.report.withdraw(feature, code)
         if all(outcome.feature != feature for outcome in self.report.outcomes):
             self.report.kept(feature, "" if stated is None else stated.where)
 

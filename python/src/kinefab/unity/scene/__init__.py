@@ -19,6 +19,7 @@ from .colliders.sphere_collider import SphereCollider
 from .constraint import Constraint, Feature
 from .coupling import Coupling, CouplingTerm, JointCoordinate
 from .game_object import Component, GameObject
+from .ignored_collision import IgnoredCollision
 from .joints.configurable_joint import ConfigurableJoint, JointDrive, SoftJointLimit, SoftJointLimitSpring
 from .joints.fixed_joint import FixedJoint
 from .joints.hinge_joint import HingeJoint, JointLimits, JointMotor, JointSpring
@@ -54,6 +55,7 @@ __all__ = [
     "FixedJoint",
     "GameObject",
     "HingeJoint",
+    "IgnoredCollision",
     "Island",
     "Joint",
     "JointCoordinate",

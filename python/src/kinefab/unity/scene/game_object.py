@@ -20,7 +20,8 @@ Component = Union[MeshFilter, MeshRenderer, Rigidbody, ArticulationBody, Collide
 class GameObject:
     """id: stable path in the source, unique; never made from order.  parent: index of an earlier object, or None.
     layer, tag: the source's words; Unity's own lists are the project's, so targets leave them at default and tell.
-    definition: of the part, shared by its occurrences; "" for none."""
+    definition: of the part, shared by its occurrences; "" for none.  role: ``ground`` of what stands for it, ``site`` of a named frame of
+    the object above; "" of all others."""
 
     id: str
     name: str
@@ -31,4 +32,5 @@ class GameObject:
     layer: str = ""
     tag: str = ""
     definition: str = ""
+    role: str = ""
     extras: Mapping[str, object] = field(default_factory=dict[str, object])

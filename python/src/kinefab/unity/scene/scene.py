@@ -10,18 +10,21 @@ from .assets.physics_material import PhysicsMaterial
 from .constraint import Constraint
 from .coupling import Coupling
 from .game_object import GameObject
+from .ignored_collision import IgnoredCollision
 from .mobility import Mobility
 from .physics import Physics
 
 
 @dataclass(frozen=True, slots=True)
 class Source:
-    """uri: relative.  upAxis: ``X``, ``Y`` or ``Z`` of the source; metersPerUnit: metres a unit of it."""
+    """uri: relative.  upAxis: ``X``, ``Y`` or ``Z`` of the source; metersPerUnit: metres a unit of it.  configuration: which of
+    several states of it was asked for; "" for the usual one."""
 
     uri: str = ""
     upAxis: str = "Y"
     metersPerUnit: float = 1.0
     sha256: str = ""
+    configuration: str = ""
 
 
 @dataclass(frozen=True, slots=True)
@@ -36,6 +39,7 @@ class UnityScene:
     materials: tuple[Material, ...] = ()
     physicsMaterials: tuple[PhysicsMaterial, ...] = ()
     couplings: tuple[Coupling, ...] = ()
+    ignoredCollisions: tuple[IgnoredCollision, ...] = ()
     animations: tuple[AnimationClip, ...] = ()
     constraints: tuple[Constraint, ...] = ()
     analysis: Mobility | None = None

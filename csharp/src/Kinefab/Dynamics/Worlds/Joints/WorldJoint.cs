@@ -39,7 +39,7 @@ public abstract class WorldJoint
     /// </summary>
     public string Name { get; internal set; } = "";
 
-    /// <summary>The user's own name for it in the CAD program; null: the file does not tell it.</summary>
+    /// <summary>The user's own name for it in the source; null: the file does not tell it.</summary>
     public string? NameInCad { get; internal set; }
 
     /// <summary>The coordinates that it left free or limited when the world was made.</summary>

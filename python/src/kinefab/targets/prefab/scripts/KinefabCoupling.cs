@@ -91,6 +91,13 @@ namespace Kinefab
             }
         }
 
+        /// <summary>Counts all coordinates from where the parts stand now: for whoever makes the joints anew there.</summary>
+        public void TakeZero()
+        {
+            _isReady = false;
+            Prepare();
+        }
+
         private bool IsThere => driven != null || drivenArticulationBody != null;
 
         private void Prepare()

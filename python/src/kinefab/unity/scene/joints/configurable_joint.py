@@ -38,6 +38,8 @@ APART = "apart"
 TWIST_RANGE = "angularXRange"
 """Of the extras of a joint whose twist has a range beyond half a turn, which the component does not count: its ends, degrees, of the
 same sense as ``lowAngularXLimit`` and ``highAngularXLimit``."""
+SWING_RANGES = ("angularYRange", "angularZRange")
+"""Likewise, of swings whose ends are not the same to either side."""
 
 
 @dataclass(frozen=True, slots=True)

@@ -325,7 +325,7 @@ class App {
       box.append(element("h2", {}, "The mechanism"), list(this.data.facts));
     } else if (this.chosen.joint !== undefined) {
       const joint = this.data.joints[this.chosen.joint];
-      box.append(element("h3", {}, joint.label), element("p", {}, joint.words), element("h4", {}, "In CAD"));
+      box.append(element("h3", {}, joint.label), element("p", {}, joint.words), element("h4", {}, "In the source"));
       if (joint.because.length) box.append(list(joint.because.map((b) => [b.id, b.text])));
       else box.append(element("p", {}, "The scene does not name what it came from."));
       box.append(element("h4", {}, `In Unity: ${joint.type}`), list(joint.fields));

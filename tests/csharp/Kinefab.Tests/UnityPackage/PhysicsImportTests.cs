@@ -1,0 +1,124 @@
+using System;
+using System.Collections.Generic;
+using System.IO;
+using System.Linq;
+using System.Text.Json.Nodes;
+using Kinefab.Tests.Conformance;
+using KinefabUnity;
+using NUnit.Framework;
+using Unity = UnityEngine;
+
+namespace Kinefab.Tests.UnityPackage;
+
+/// <summary>What the settings make of bodies and joints.</summary>
+[NonParallelizable]
+public sealed class PhysicsImportTests
+{
+    private static readonly string Samples = Path.Combine(ConformanceCases.Folder, "..", "..", "csharp", "unity", "com.kinefab", "Samples~");
+    private static readonly string Arm = Path.Combine(Samples, "Arm", "Arm.kinefab");
+    private static readonly string Gripper = Path.Combine(Samples, "Gripper", "Gripper.kinefab");
+
+    [Test]
+    public void Joints_OfAnArticulation_AreOneForEachLinkBelowTheRoot()
+    {
+        ImportedAsset links = ImportedAsset.Of(Arm), joints = ImportedAsset.Of(Arm, new KinefabSettings { physics = KinefabPhysics.Joints });
+        Unity.ArticulationBody[] from = All<Unity.ArticulationBody>(links);
+        Assert.That((from.Length, All<Unity.ArticulationBody>(joints).Length), Is.EqualTo((7, 0)));
+        Unity.Rigidbody[] bodies = All<Unity.Rigidbody>(joints);
+        Assert.That(bodies.Select(b => (b.name, b.mass, b.isKinematic)), Is.EqualTo(from.Select(l => (l.name, l.mass, l.immovable))));
+        Unity.ConfigurableJoint[] made = All<Unity.ConfigurableJoint>(joints);
+        Assert.That(made.Select(j => (j.name, j.connectedBody.name)), Is.EqualTo(from.Skip(1).Select(l => (l.name, l.transform.parent.name))));
+        foreach ((Unity.ConfigurableJoint joint, Unity.ArticulationBody link) in made.Zip(from.Skip(1)))
+        {
+            Assert.That((joint.lowAngularXLimit.limit, joint.highAngularXLimit.limit, joint.angularXDrive.positionSpring), Is.EqualTo((link.xDrive.lowerLimit, link.xDrive.upperLimit, link.xDrive.stiffness)), joint.name);
+            Assert.That((joint.angularXMotion, joint.angularYMotion, joint.xMotion), Is.EqualTo((Unity.ConfigurableJointMotion.Limited, Unity.ConfigurableJointMotion.Locked, Unity.ConfigurableJointMotion.Locked)));
+        }
+    }
+
+    // The mechanism is the same whatever physics has of it, and its drives find the joint that stands for a link.
+    [Test]
+    public void Joints_OfAnArticulation_AreAimedLikeItsLinks()
+    {
+        using var played = new PlayedMechanism(Arm, KinefabPhysics.Joints);
+        double[] asked = [10, 20, -30, 40, 50, -60];
+        played.Component.Set(asked);
+        played.Frame();
+        Assert.That(played.Off(played.Component.Motion.State), Is.LessThan(2e-5));
+        played.Component.Mover = KinefabMover.JointDrives;
+        double[] aimed = [.. All<Unity.ConfigurableJoint>(played.Root).Select(j => 2 * Math.Asin(Math.Abs(j.targetRotation.x)) * 180 / Math.PI)];
+        Assert.That(aimed, Is.EqualTo(asked.Select(Math.Abs)).Within(1e-3));
+    }
+
+    [Test]
+    public void Articulation_OfAFileWithJoints_SaysThatTheExportMakesIt()
+    {
+        using var scene = new EditedScene();
+        ImportedAsset asset = ImportedAsset.Of(scene.Scene, new KinefabSettings { physics = KinefabPhysics.Articulation });
+        Assert.That(asset.Context.Warnings.Single(w => w.Contains("UNITY_PHYSICS_AS_EXPORTED", StringComparison.Ordinal)), Does.Match(@"the file has \d+ Rigidbodies and \d+ joints; they stay").And.Contain("--physics articulation"));
+        Assert.That(All<Unity.Joint>(asset), Is.Not.Empty);
+        Assert.That(ImportedAsset.Of(Arm, new KinefabSettings { physics = KinefabPhysics.Articulation }).Codes, Has.None.EqualTo("UNITY_PHYSICS_AS_EXPORTED"));
+        Assert.That(ImportedAsset.Of(Arm).Source.DescribePhysics(), Is.EqualTo("7 ArticulationBodies and 0 joints"));
+    }
+
+    [Test]
+    public void Couplings_AreKeptByTheScriptWherePhysicsMoves()
+    {
+        KinefabCoupling[] made = All<KinefabCoupling>(ImportedAsset.Of(Gripper));
+        Assert.That(made.Select(c => (c.driven.name, c.terms.Single().joint.name, c.terms.Single().ratio)), Is.EqualTo(new[] { ("Left jaw", "Spindle", (float)(-0.02 / 360)), ("Right jaw", "Left jaw", -1f) }));
+        Assert.That(All<KinefabCoupling>(ImportedAsset.Of(Gripper, new KinefabSettings { physics = KinefabPhysics.None })), Is.Empty);
+
+        // Under a scaled parent a turn is as many degrees, and a way as many times longer.
+        var parent = new Unity.GameObject("parent");
+        parent.transform.localScale = new Unity.Vector3(3, 3, 3);
+        Unity.GameObject scaled = KinefabScene.Instantiate(Gripper, parent.transform, findings: []);
+        Assert.That(All<KinefabCoupling>(scaled).Select(c => c.terms.Single().ratio), Is.EqualTo(new[] { -0.06f / 360, -1f }).Within(1e-9));
+    }
+
+    [Test]
+    public void Couplings_RestWhileTheSolverHoldsTheBodies()
+    {
+        using var played = new PlayedMechanism(Gripper, KinefabPhysics.AsExported);
+        KinefabCoupling[] couplings = All<KinefabCoupling>(played.Root);
+        Assert.That(couplings.Select(c => c.enabled), Is.All.False);
+        played.Component.Mover = KinefabMover.Physics;
+        Assert.That(couplings.Select(c => c.enabled), Is.All.True.And.Exactly(2).Items);
+    }
+
+    // The solver has to know of it too, or its sliders would move what stands.
+    [Test]
+    public void Ground_OfTheSettings_IsTheSolversToo()
+    {
+        using var scene = new EditedScene("../csharp/unity/com.kinefab/Samples~/FourBar/FourBar.kinefab");
+        JsonObject body = scene.Objects.SelectMany(o => o!["components"]?.AsArray() ?? []).Select(c => c!.AsObject()).First(c => (bool?)c["isKinematic"] == true);
+        body.Remove("isKinematic");
+        scene.Save();
+        ImportedAsset free = ImportedAsset.Of(scene.Scene);
+        string id = (string)scene.Objects.First(o => o!["components"]?.AsArray().Contains(body) == true)!["id"]!;
+        ImportedAsset held = ImportedAsset.Of(scene.Scene, new KinefabSettings { ground = id });
+        Assert.That(held.Codes, Has.None.EqualTo("UNITY_GROUND_UNKNOWN"));
+        Assert.That(All<Unity.Rigidbody>(held).Count(b => b.isKinematic), Is.EqualTo(All<Unity.Rigidbody>(free).Count(b => b.isKinematic) + 1));
+        Assert.That(held.Root.GetComponent<KinefabMechanism>().CanDrag(All<Unity.Rigidbody>(held).Single(b => b.isKinematic).transform), Is.False);
+    }
+
+    [Test]
+    public void Ground_OfAnArticulation_IsItsRootAlone()
+    {
+        Assert.That(ImportedAsset.Of(Arm, new KinefabSettings { ground = "Forearm" }).Codes, Does.Contain("UNITY_GROUND_UNKNOWN"));
+        Assert.That(ImportedAsset.Of(Arm, new KinefabSettings { ground = "Pedestal" }).Codes, Has.None.EqualTo("UNITY_GROUND_UNKNOWN"));
+    }
+
+    [Test]
+    public void Mechanism_WithoutAFreedom_IsToldInTheInspector()
+    {
+        ImportedAsset asset = ImportedAsset.Of(PlayedMechanism.Full("mechanisms/M45.kinefab"));
+        Assert.That(asset.Source.Findings.Single(f => f.code == "UNITY_NOTHING_MOVES").remedy, Does.Contain("kinefab analyse"));
+        List<KinefabFinding> found = [];
+        KinefabScene.Instantiate(PlayedMechanism.Full("mechanisms/M45.kinefab"), findings: found);
+        Assert.That(found.Select(f => f.code), Does.Contain("UNITY_NOTHING_MOVES"));
+        Assert.That(ImportedAsset.Of(Gripper).Codes, Has.None.EqualTo("UNITY_NOTHING_MOVES"));
+    }
+
+    private static T[] All<T>(ImportedAsset asset) => All<T>(asset.Root);
+
+    private static T[] All<T>(Unity.GameObject root) => root.GetComponentsInChildren<T>(true);
+}

@@ -189,6 +189,18 @@ def test_a_pair_with_what_stands_in_the_world_is_told(tmp_path: Path):
     assert frozenset(("A", "Floor")) in touching(tmp_path / "balls.kinefab")
 
 
+@pytest.mark.parametrize("ignored", [True, False])
+def test_a_pair_that_the_source_lets_pass_is_not_said_to_overlap(tmp_path: Path, ignored: bool):
+    """Also where Unity does not keep it, which is told; other pairs are looked at, or that is said where the library is missing."""
+    scene = kinefab.Scene()
+    scene.add_part("A", trimesh.creation.box((0.2, 0.2, 0.2)))
+    scene.add_part("Floor", trimesh.creation.box((4, 0.1, 4)), grounded=True)
+    scene.apart += [Apart(0, 1, "filtered pair")] if ignored else []
+    result = kinefab.export(scene, tmp_path / "a.kinefab", kinefab.ExportOptions(ground="world"))
+    looked_at = {"COLLIDERS_OVERLAP", "OVERLAPS_NOT_CHECKED"} & {d.code for d in result.report.diagnostics}
+    assert bool(looked_at) is not ignored
+
+
 TWISTED = """<sdf version="1.9"><model name="m">
 <link name="a"><inertial><mass>4</mass></inertial><collision name="c"><geometry><box><size>.3 .3 .3</size></box></geometry></collision></link>
 <link name="b"><pose>0 0 .2 0 0 0</pose><inertial><mass>2</mass></inertial><collision name="c"><geometry><box><size>.3 .3 .3</size></box></geometry></collision></link>

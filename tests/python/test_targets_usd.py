@@ -16,8 +16,9 @@ import numpy as np
 import pytest
 from golden import FIXTURES, golden_pairs
 from kinefab import model
-from kinefab.diagnostics import Outcome
+from kinefab.diagnostics import Outcome, Report
 from kinefab.model import Body, Collider, ColliderKind, Freedom, JointKind, Motion, Node, Scene
+from kinefab.sources import read
 from kinefab.spatial import Pose
 from prefab_scenes import block, rich_scene, turned
 from test_targets_gltf import robot
@@ -392,6 +393,37 @@ def test_a_joint_that_leaves_everything_free_is_not_written(tmp_path):
     tie = model.Coupling("C", model.CouplingKind.LINEAR, "J", model.RX, (model.Term("J", model.TX, 2.0),))
     counted = replace(free, couplings=[tie])
     assert opened(counted, tmp_path / "counted.usda")[0].GetPrimAtPath("/counted/Joints/J")
+
+
+def test_a_slide_that_follows_has_its_leaders_drive_beside_the_mimic(tmp_path):
+    """PhysX has mimics between turns alone: the slide's drive does the same work as the leader's."""
+    scene = kinefab.Scene()
+    base, finger, rack = (
+        scene.add_part(name, grounded=name == "Base", mass=None if name == "Base" else 1.0)
+        for name in ("Base", "Finger", "Rack")
+    )
+    drive = kinefab.Drive(target=30.0, stiffness=8.0, damping=2.0, max_force=5.0)
+    leader = scene.add_hinge(base, finger, point=(0, 0, 0), axis=(1, 0, 0), drive=drive, name="Lead")
+    slide = scene.add_slider(base, rack, point=(0, 0, 0.1), axis=(0, 0, 1), name="Slide")
+    scene.add_coupling(leader, slide, ratio=0.02)
+    stage, result = opened(scene, tmp_path / "hand.usda")
+    prim = next(p for p in stage.Traverse() if p.HasRelationship("newton:mimicJoint"))
+    own = scene.joints[0].freedoms[model.RX].drive
+    found = {
+        name: prim.GetAttribute(f"drive:linear:physics:{name}").Get()
+        for name in ("targetPosition", "stiffness", "damping", "maxForce")
+    }
+    tie = scene.couplings[0]
+    ratio, offset = tie.terms[0].ratio, tie.offset
+    assert found == {
+        "targetPosition": pytest.approx(ratio * own.target + offset),
+        "stiffness": pytest.approx(own.stiffness / ratio**2),
+        "damping": pytest.approx(own.damping / ratio**2),
+        "maxForce": pytest.approx(own.max_force / abs(ratio)),
+    }
+    assert "mimic of joint Slide" in {o.feature for o in result.report.outcomes}
+    back = read(tmp_path / "hand.usda", Report())
+    assert [j.freedoms[model.TX].drive for j in back.joints if j.kind is JointKind.PRISMATIC] == [None]
 
 
 def test_what_no_engine_couples_is_written_in_words_of_our_own(tmp_path):

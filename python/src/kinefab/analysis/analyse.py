@@ -17,6 +17,7 @@ from .assembly.assemble import Assembly, assemble
 from .couplings.rehanging import rehung
 from .couplings.standing import without_standing
 from .couplings.stated import couplings_of
+from .couplings.superseded import on_links
 from .couplings.symmetry import symmetric_couplings
 from .findings.freedoms import check_records, singular_joints
 from .findings.idle import IdleFreedom, idle_freedoms
@@ -88,7 +89,7 @@ def _analysed(scene: Scene, options: AnalysisOptions, progress: Callable[[float]
     ranges = found_ranges(assembly, links, closed, report, progress) if options.limits else []
     links = with_found_ranges(assembly, links, ranges, report)
     links = rehung(assembly, links, closed, report)
-    couplings = couplings_of(assembly, links, closed, report)
+    couplings = on_links(assembly, links, couplings_of(assembly, links, closed, report), closed)
     stated = len(couplings)
     couplings = without_standing(assembly, links, couplings, closed, report)
     as_stated = len(closed.nodes) == len(assembly.scene.nodes) and len(couplings) == stated

@@ -40,9 +40,14 @@ def check_overlaps(
     if not dynamic:
         return
     joined = joined_pairs(scene, bodies)
+    ignored = {frozenset((pair.a, pair.b)) for pair in scene.ignoredCollisions}  # told, where Unity keeps them not
 
     def may_collide(pair: frozenset[int | None]) -> bool:
         return pair not in joined if among is None else pair in among
+
+    def are_ignored(first: int, second: int) -> bool:
+        within = [_within_body(scene, bodies, owner) for owner in (first, second)] if ignored else [[], []]
+        return any(frozenset((a, b)) in ignored for a in within[0] for b in within[1])
 
     standing = standing_colliders(scene)
     moved = [bodies[owner] for owner in standing.owners]
@@ -52,6 +57,7 @@ def check_overlaps(
         if moved[first] != moved[second]
         and dynamic & {moved[first], moved[second]}
         and may_collide(frozenset((moved[first], moved[second])))
+        and not are_ignored(standing.owners[first], standing.owners[second])
     ]
     if not free:
         return
@@ -77,6 +83,14 @@ def check_overlaps(
     for (a, b), depth in sorted(found.items(), key=lambda entry: (-round(entry[1], 9), entry[0])):
         ids = (scene.gameObjects[a].id, scene.gameObjects[b].id)
         report.add("COLLIDERS_OVERLAP", a=ids[0], b=ids[1], depth=f"{depth:.3g}")
+
+
+def _within_body(scene: UnityScene, bodies: list[int | None], index: int) -> list[int]:
+    """An object and those above it that are part of its body."""
+    found = [index]
+    while found[-1] != bodies[index] and (above := scene.gameObjects[found[-1]].parent) is not None:
+        found.append(above)
+    return found
 
 
 def bodies_of(scene: UnityScene) -> list[int | None]:

@@ -32,7 +32,7 @@ def without_standing(
             told = {"coupling": coupling.id, "joints": ", ".join(sorted(coupling.joints))}
             report.kept(f"coupling {coupling.id}", coupling.where, "COUPLING_HELD", **told)
         elif len(moving) > 1 and all(end.joint in by_id for end in moving):
-            found.append(_counted_from(coupling, moving, by_id, scene))
+            found.append(counted_from(coupling, moving, by_id, scene))
         else:
             found.append(coupling)
     return found
@@ -45,7 +45,7 @@ def _stands(assembly: Assembly, by_id: Mapping[str, Link], stated: Mapping[str, 
     return joint is not None and assembly.body_of(joint.a) == assembly.body_of(joint.b)
 
 
-def _counted_from(
+def counted_from(
     coupling: Coupling, moving: Sequence[Term], by_id: Mapping[str, Link], scene: Scene
 ) -> Coupling:
     """The coupling between these coordinates, as it holds at the closed pose.  moving: with the ratios of

@@ -106,7 +106,8 @@ class Freedoms:
 
     def with_drive(self, freedom: Freedom, prim: Any, instance: str, turns: bool) -> Freedom:
         """The freedom with the drive of a DriveAPI instance, where there is one."""
-        if f"PhysicsDriveAPI:{instance}" not in schemas(prim):
+        # what Kinefab writes beside a slide's mimic is the mimic once more
+        if f"PhysicsDriveAPI:{instance}" not in schemas(prim) or self._values.authored(prim, "kinefab:mimic:drive"):
             return freedom
         prefix = f"drive:{instance}:physics:"
         get = self._values.number

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from collections import Counter
 from collections.abc import Collection, Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from typing import Any
 
 from ....diagnostics import Report
@@ -13,7 +13,7 @@ from ....model import RX, TX, Coupling, Joint, Scene
 from ....partition import Partition
 from ....unity.joints.coordinates import canonical, coordinates_in
 from ....unity.joints.couplings import lead_coupling, uncoupled_screws
-from .freedoms import UNBOUNDED
+from .freedoms import UNBOUNDED, write_drive
 from .joints import WrittenJoint
 
 BOUNDS = {"physics:lowerLimit": -UNBOUNDED, "physics:upperLimit": UNBOUNDED}
@@ -51,7 +51,7 @@ def write_couplings(
         for coupling in [*scene.couplings, *_screws(scene, joints)]
         if _is_writable(coupling, joints, report, ending)
     ]
-    writer = _Writer(joints, trees, report, ending)
+    writer = _Writer({joint.id: joint for joint in scene.joints}, joints, trees, report, ending)
     for members in _together([c for c in sound if writer.kinds(_own(c), _led(c))]):
         writer.write_star(members)
     for coupling in sound:
@@ -97,6 +97,7 @@ def _together(couplings: Sequence[Coupling]) -> list[list[Coupling]]:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class _Writer:
+    stated: Mapping[str, Joint]
     joints: Mapping[str, WrittenJoint]
     trees: Mapping[Any, int]
     report: Report
@@ -144,6 +145,8 @@ class _Writer:
         for slot, kinds in followers.items():
             if kinds:
                 self._write_mimic(slot, root, kinds, motions[slot])
+                if "physx" not in kinds:
+                    self._write_drive(slot, root, motions[slot])
 
     def write_apart(self, coupling: Coupling) -> None:
         """In words of our own, as no engine's fit; turned round where its coordinate follows another so already."""
@@ -183,6 +186,30 @@ class _Writer:
             prim.relation(f"{prefix}referenceJoint", leader.prim.path)
             prim.attribute(f"{prefix}referenceJointAxis", "Token", self._instance(led), uniform=True)
             prim.numbers({f"{prefix}gearing": -ratio, f"{prefix}offset": -offset})
+
+    def _write_drive(self, own: _Slot, led: _Slot, motion: _Motion) -> None:
+        """The leader's drive as the follower has it: PhysX's mimics are between turns alone, and where one slides nothing follows there."""
+        (joint, freedom), prim, turns = own, self.joints[own[0]].prim, own[1] >= RX
+        drive = self.stated[led[0]].freedoms[led[1]].drive
+        detail = "PhysX has mimics between turns alone, and there the joint is loose: its leader has no drive that could be its own too"
+        if self.stated[joint].freedoms[freedom].drive is not None:
+            detail = "PhysX has mimics between turns alone; there the joint's own drive alone moves it"
+        elif drive is not None and motion.ratio:
+            gain = 1.0 if drive.acceleration else 1.0 / motion.ratio**2
+            made = replace(
+                drive,
+                target=motion.ratio * drive.target + motion.offset,
+                target_velocity=motion.ratio * drive.target_velocity,
+                stiffness=gain * drive.stiffness,
+                damping=gain * drive.damping,
+                max_force=drive.max_force / abs(motion.ratio),
+            )
+            write_drive(prim, "angular" if turns else "linear", made, turns)
+            prim.attribute("kinefab:mimic:drive", "Bool", True, custom=True)
+            detail = "PhysX has mimics between turns alone; a drive stands beside it, whose target is to be set with its leader's"
+        self.report.approximated(
+            f"mimic of joint {joint}", "TARGET_FEATURE_APPROXIMATED", self.stated[joint].where, target=self.ending, detail=detail
+        )
 
     def _instance(self, slot: _Slot) -> str:
         """What USD calls a coordinate's freedom."""

@@ -68,6 +68,8 @@ bench: setup tool ## the measured figures of the README
 	dotnet run -c Release --project csharp/bench -- load
 	dotnet run -c Release --project csharp/bench -- drive
 	dotnet run -c Release --project csharp/bench -- mobility
+	dotnet run -c Release --project csharp/bench -- articulation
+	dotnet run -c Release --project csharp/bench -- peers
 
 docs: ## the guides and the C# reference as pages, out/docs/index.html; a broken link is an error
 	@dotnet build csharp/src/Kinefab.NUnit -c Release -v quiet --nologo

@@ -1,7 +1,8 @@
 using System;
-using System.Diagnostics;
+using System.Collections.Generic;
 using System.Globalization;
 using System.Linq;
+using Kinefab.Bench.Peers;
 using Kinefab.Dynamics;
 using Kinefab.Dynamics.Articulations;
 using Kinefab.Dynamics.Pgs;
@@ -10,54 +11,93 @@ using Kinefab.Numerics;
 
 namespace Kinefab.Bench;
 
-/// <summary>Articulations beside Rigidbodies with joints: the same driven arms, a step of 1/60 s.</summary>
+/// <summary>Articulations beside Rigidbodies with joints, here and in other engines: the same driven arms, a step of 1/60 s, by turns.</summary>
 internal static class ArticulationBenchmark
 {
     private const double Dt = 1.0 / 60;
     private const int Runs = 400;
+
+    // Some engines' time grows with the cube of a chain's length.
+    private const int MostLinksOfPeers = 32;
     private static readonly Vector3d Gravity = new(0, -9.81, 0);
     private static readonly int[] Sizes = { 7, 32, 125, 250, 500, 1000 };
 
     public static void Run()
     {
-        Console.WriteLine("| scene | how | us/step | ns/link-step | bytes/step |");
-        Console.WriteLine("|---|---|---|---|---|");
+        Console.WriteLine("| arm | how | us/step | ns/link-step | median | bytes/step |");
+        Console.WriteLine("|---|---|---|---|---|---|");
         double small = 0, large = 0;
         foreach (int links in Sizes)
         {
             ArticulationSolver free = Articulation(links, isDriven: false);
-            Row($"chain{links}", "articulation, no rows", links, () => free.Step(Gravity, Dt, 6, 1));
             ArticulationSolver driven = Articulation(links, isDriven: true);
-            double time = Row($"chain{links}", "articulation, driven", links, () => driven.Step(Gravity, Dt, 6, 1));
-            small = links == 125 ? time : small;
-            large = links == 1000 ? time : large;
             var joints = new PgsSolver(Jointed(links));
-            Row($"chain{links}", "unity, driven", links, () => joints.Step(Dt));
+            var contenders = new List<Contender>
+            {
+                new("articulation, no rows", links, () => free.Step(Gravity, Dt, 6, 1)),
+                new("articulation, driven", links, () => driven.Step(Gravity, Dt, 6, 1)),
+                new("joints in unity, driven", links, () => joints.Step(Dt)),
+            };
+            List<IPeer> peers = new();
+            foreach ((string name, Func<MultibodySystem, IPeer> make) in PeerList.All().Where(_ => links <= MostLinksOfPeers))
+            {
+                IPeer peer = make(Jointed(links));
+                peers.Add(peer);
+                contenders.Add(new Contender($"joints in {name}, held by motors", links, () => peer.Step(Dt)));
+            }
+
+            for (int run = 0; run < Runs; run++)
+            {
+                foreach (Contender contender in contenders)
+                    contender.Time();
+            }
+
+            foreach (Contender contender in contenders)
+                contender.Print(links);
+            peers.ForEach(peer => peer.Dispose());
+            small = links == 125 ? contenders[1].Least : small;
+            large = links == 1000 ? contenders[1].Least : large;
         }
 
-        Console.WriteLine(FormattableString.Invariant($"\nexponent from 125 to 1000 driven links: {Math.Log(large / small) / Math.Log(8):0.000}"));
+        Console.WriteLine(FormattableString.Invariant($"\nExponent from 125 to 1000 driven links: {Math.Log(large / small) / Math.Log(8):0.000}. Processor time of the thread, the least of {Runs} runs in which all took turns. {Machine.Description}."));
     }
 
-    private static double Row(string scene, string name, int links, Action step)
+    private sealed class Contender
     {
-        int steps = Math.Max(20, 20000 / links);
-        for (int i = 0; i < steps; i++)
-            step();
-        long before = GC.GetAllocatedBytesForCurrentThread();
-        step();
-        long bytes = GC.GetAllocatedBytesForCurrentThread() - before;
-        int batch = Math.Max(1, 700 / links);
-        double best = double.PositiveInfinity;
-        for (int run = 0; run < Runs; run++)
+        private readonly string _name;
+        private readonly Action _step;
+        private readonly int _batch;
+        private readonly long _bytes;
+        private readonly List<double> _times = new();
+
+        public Contender(string name, int links, Action step)
         {
-            long began = Stopwatch.GetTimestamp();
-            for (int i = 0; i < batch; i++)
+            _name = name;
+            _step = step;
+            _batch = Math.Max(1, 700 / links);
+            for (int i = 0; i < Math.Max(20, 20000 / links); i++)
                 step();
-            best = Math.Min(best, Stopwatch.GetElapsedTime(began).TotalMicroseconds / batch);
+            long before = GC.GetAllocatedBytesForCurrentThread();
+            step();
+            _bytes = GC.GetAllocatedBytesForCurrentThread() - before;
         }
 
-        Console.WriteLine(string.Format(CultureInfo.InvariantCulture, "| {0} | {1} | {2:F2} | {3:F0} | {4} |", scene, name, best, best * 1000 / links, bytes));
-        return best;
+        /// <summary>us a step.</summary>
+        public double Least => _times.Min();
+
+        public void Time()
+        {
+            double began = ThreadClock.Microseconds;
+            for (int i = 0; i < _batch; i++)
+                _step();
+            _times.Add((ThreadClock.Microseconds - began) / _batch);
+        }
+
+        public void Print(int links)
+        {
+            double median = _times.Order().ElementAt(_times.Count / 2);
+            Console.WriteLine(string.Create(CultureInfo.InvariantCulture, $"| {links} links | {_name} | {Least:F2} | {Least * 1000 / links:F0} | {median:F2} | {_bytes} |"));
+        }
     }
 
     // Links of 0.2 m in a row along X, axes about Z and Y by turns, held straight by drives.

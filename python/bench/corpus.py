@@ -137,6 +137,10 @@ def in_a_process(path: Path, format_name: str, arguments: argparse.Namespace) ->
     return found
 
 
+def _alike(here: float, engine: float) -> bool:
+    return abs(here - engine) <= 1e-6 * max(engine, 1e-9)
+
+
 def summary(results: list[dict[str, Any]]) -> dict[str, Any]:
     """The scores of one format."""
     done = [r for r in results if r["outcome"] == "converted"]
@@ -169,6 +173,9 @@ def summary(results: list[dict[str, Any]]) -> dict[str, Any]:
         "limits right": f"{sum(r['limits_wrong'] == [] for r in done if 'limits_wrong' in r)} of {len(fk)}",
         "mass worst (relative)": max(mass, default=None),
         "mass right": f"{sum(m <= 1e-6 for m in mass)} of {len(mass)}",
+        "total mass right": f"{sum(_alike(*r['total_mass']) for r in done if 'total_mass' in r)} of {len(mass)}",
+        "pairs that do not collide": sum(r.get("pairs", 0) for r in done),
+        "pairs right": f"{sum(r['pairs_right'] for r in done if 'pairs' in r)} of {sum('pairs' in r for r in done)}",
         "approximated or dropped": dict(losses.most_common()),
     }
 

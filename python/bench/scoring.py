@@ -6,7 +6,7 @@ import json
 import math
 import shutil
 import subprocess
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from pathlib import Path
 from typing import Any
 
@@ -141,9 +141,8 @@ def compared(
     if limits_wrong:
         wrong.append(f"limits: {limits_wrong[:3]}")
     right = not any(value > limit for value, limit in zip(worst, close))
-    return {"fk": worst, "fk_right": right, "limits_wrong": limits_wrong} | _masses(
-        motion, engine, told, wrong
-    )
+    found = {"fk": worst, "fk_right": right, "limits_wrong": limits_wrong}
+    return found | _masses(motion, engine, told, wrong) | _pairs(motion, engine, told, wrong)
 
 
 def _carried(
@@ -221,7 +220,59 @@ def _masses(motion: SceneKinematics, engine: Engine, told: set[str], wrong: list
             where = f"{name}: mass, centre, inertia off by {', '.join(f'{e:.2g}' for e in errors)}"
     if worst > CLOSE:
         wrong.append(where)
-    return {"mass_error": worst}
+    total = sum(part.mass for parts in together.values() for part in parts)
+    bodies = {*together, *(i for body in together for i in helping.get(motion.objects[body]["id"], ()))}
+    weighed = sum(motion.mass(body)[0] for body in bodies)
+    return {"mass_error": worst, "total_mass": [weighed, total]}
+
+
+PAIRS_TOLD = {"PAIR_DROPPED", "GROUP_PARTLY_KEPT", "MJCF_COLLISION_FILTER", "USD_COLLISION_FILTER"}
+"""Findings that tell a pair which the scene does not keep."""
+
+
+def _pairs(motion: SceneKinematics, engine: Engine, told: set[str], wrong: list[str]) -> dict[str, Any]:
+    """Pairs of bodies that do not collide, of those that the engine has something touchable on."""
+    expected = engine.passing()
+    if expected is None:
+        return {}
+    welded = {body: body for body in motion.body_of}
+    for i, c in _joints(motion, "FixedJoint"):
+        a, b = (welded[motion.body_of[k]] for k in (i, c.get("connectedBody", i)))
+        welded = {k: a if v == b else v for k, v in welded.items()}
+    shaped = {
+        welded[motion.body_of[i]]
+        for i, entry in enumerate(motion.objects)
+        if any(c["type"].endswith("Collider") for c in entry.get("components", ()))
+    }
+    moving = {welded[body] for body in motion.moving}
+
+    def counts(pair: frozenset[int | None]) -> bool:
+        return len(pair) == 2 and pair <= shaped and bool(pair & moving)
+
+    of_engine: set[frozenset[int | None]] = set()
+    for pair in expected:
+        try:
+            of_engine.add(frozenset(welded[motion.body_of[motion.object(name)]] for name in pair))
+        except KeyError:
+            continue  # told by the poses
+    here = {
+        frozenset((welded[motion.body_of[i]], welded[motion.body_of[c["connectedBody"]]]))
+        for i, c in _joints(motion, "HingeJoint", "ConfigurableJoint", "FixedJoint")
+        if "connectedBody" in c and not c.get("enableCollision", False)
+    }
+    different = {pair for pair in here ^ of_engine if counts(pair)}
+    right = not different or bool(PAIRS_TOLD & told)
+    if not right:
+        names = [sorted(motion.objects[i]["name"] for i in pair if i is not None) for pair in different]
+        wrong.append(f"pairs that do not collide: {sorted(names)[:3]}")
+    return {"pairs": len({pair for pair in here if counts(pair)}), "pairs_right": right}
+
+
+def _joints(motion: SceneKinematics, *kinds: str) -> Iterator[tuple[int, Mapping[str, Any]]]:
+    for i, entry in enumerate(motion.objects):
+        for component in entry.get("components", ()):
+            if component["type"] in kinds:
+                yield i, component
 
 
 def _in_world(motion: Any, body: int) -> Mass:

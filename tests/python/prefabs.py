@@ -12,14 +12,19 @@ from pathlib import Path
 
 import kinefab
 from golden import FIXTURES, golden_pairs
+from kinefab.sources import format_of
 from prefab_scenes import rich_scene
 
 SETTINGS = {
     "body": kinefab.ExportOptions(),
     "world": kinefab.ExportOptions(ground="world", closures="minimal", colliders="box"),
 }
-MORE = ("lever/lever.urdf", "lever/lever.xml", "lever/lever.sdf", "lever/lever.FCStd", "lever/lever.usda")
-"""The lever by other roads: robots' trees, names and drives."""
+MORE = sorted(
+    path
+    for path in (*(FIXTURES / "lever").glob("lever*.*"), *(FIXTURES / "freecad").glob("*.FCStd"), *(FIXTURES / "freecad").glob("*.asmt"))
+    if not path.name.endswith((".kinefab", ".bundle.json")) and format_of(path) is not None
+)
+"""The lever by other roads: robots' trees, names and drives; FreeCAD's documents and its solver's assemblies."""
 CLIPS = FIXTURES.parent / "tests" / "conformance" / "valid" / "animation"
 """Scenes, which are sources too."""
 LINKS = kinefab.ExportOptions(writing={"physics": "articulation"})
@@ -47,7 +52,7 @@ def main(folder: Path, kind: str) -> int:
     elif kind in PIPELINES:
         sources, writing = looks(folder), {"pipeline": kind, "scripts": True}
     elif kind == "body":
-        sources |= {path: FIXTURES / path for path in MORE}
+        sources |= {f"{path.parent.name} {path.name}": path for path in MORE}
     for stem, source in sources.items():
         stem = stem.replace("/", " ")
         target = folder / stem

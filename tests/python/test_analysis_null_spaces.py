@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import kinefab
 import numpy as np
 import pytest
 from kinefab.analysis import analyse
@@ -65,3 +66,18 @@ def test_motions_of_a_tree_are_orthonormal_and_those_of_its_joints(seed):
             own -= twists[parent]
             own[:3] += skew(point[body] - point[parent]) @ twists[parent, 3:]
         assert np.abs(own - free @ (free.T @ own)).max() < 1e-11
+
+
+@pytest.mark.parametrize("count", [31, 60])
+@pytest.mark.parametrize("axis", [(0, 0, 1), (1, 2, 3)])
+def test_a_large_ring_of_hinges_on_one_axis_turns_in_all_of_them(count, axis):
+    """Its loop repeats rows of the tree alone, and the largest of its singular values is a rounding."""
+    rings = kinefab.Scene()
+    rings.add_part("base", grounded=True)
+    for i in range(count):
+        rings.add_part(f"ring{i}", mass=1.0, translation=(0.1 * i, -0.2, 0.3))
+    for i in range(count + 1):
+        at = 0.3 * np.sin(i) * np.array(axis) + (0.3, -7.0, 5.0)
+        rings.add_hinge(i, (i + 1) % (count + 1), point=tuple(at), axis=axis)
+    found = analyse(rings)
+    assert (found.mobility, found.first_order) == (count, count)

@@ -89,8 +89,8 @@ def test_the_tool_counts_and_moves_a_sum_as_the_source_does(follower: str, tmp_p
     assert said["valid"] and said["diagnostics"] == []
     counted = tool("mobility", target)
     assert counted["mobility"]["mobility"] == 3 and counted["diagnostics"] == []
-    swept = tool("sweep", target, "--driver", "Right", "--from", "0", "--to", "40", "--steps", "5")
-    assert swept["stop"] is None
+    swept = tool("sweep", target, "--joint", "Right", "--from", "0", "--to", "40", "--steps", "5")
+    assert swept["sweep"]["last"] == pytest.approx(40.0) and swept["sweep"]["worstGap"] < 1e-9
 
 
 def test_joints_of_more_than_one_sum(tmp_path: Path):

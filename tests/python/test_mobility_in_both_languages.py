@@ -58,6 +58,9 @@ APART_ONCE = {
     4415: (5, 0),
     4821: (4, 1),
     4941: (3, 0),  # two branches of motions that touch each other
+    5900: (2, 1),  # a coupling whose two joints became one
+    5983: (4, 3),  # a leg at the pole of its universal joint
+    6139: (0, 0),  # a velocity that is obstructed late
 }
 """Mechanisms, by seed, that were once counted differently: mobility and idle freedoms."""
 

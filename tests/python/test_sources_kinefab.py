@@ -254,3 +254,31 @@ def test_every_field_of_every_noun_has_a_place_in_the_file():
         if definition_of(noun) in definitions()
     }
     assert len(left) > 30 and not any(left.values()), left
+
+
+def test_what_other_programs_wrote_into_any_object_stays(tmp_path):
+    """On objects that no noun of ours has extras for, and on ones that are left out at their default."""
+    folder = tmp_path / "made"
+    folder.mkdir()
+    path = kinefab.export(LEVER / "lever.bundle.json", folder / "scene.kinefab").path
+    document = json.loads(path.read_text("utf-8"))
+    document["gameObjects"][0].setdefault("transform", {})
+    marked = 0
+
+    def mark(value, place):
+        nonlocal marked
+        if isinstance(value, dict):
+            for key, item in list(value.items()):
+                mark(item, f"{place}/{key}")
+            if not place.endswith(("/extras", "/closureGap", "/bounds")):
+                value["extras"], marked = {**value.get("extras", {}), "mark": place, "number": 3.0}, marked + 1
+        elif isinstance(value, list):
+            for index, item in enumerate(value):
+                mark(item, f"{place}/{index}")
+
+    mark(document, "")
+    path.write_text(json.dumps(document), "utf-8")
+    result = kinefab.export(path, tmp_path / "scene.kinefab")
+    assert not result.report.diagnostics and marked > 100
+    assert json.loads(result.path.read_text("utf-8")) == document
+    assert '"number": 3}' in result.path.read_text("utf-8")

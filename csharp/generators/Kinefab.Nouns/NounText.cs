@@ -83,8 +83,7 @@ internal static class NounText
         var all = new StringBuilder();
         if (Field.Minor(noun) is > 0 and int minor)
             all.Append($"        json.Needs({minor});\n");
-        // What stands on lines of its own stands last.
-        foreach (Field field in fields.OrderBy(field => ValueText.Item(field.Type)?.Name == "Component"))
+        foreach (Field field in fields)
         {
             string says = ValueText.Says(field, "Usual");
             string value = says.Contains(" is {") ? field.Name + "Value" : field.Property;

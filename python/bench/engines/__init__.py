@@ -74,6 +74,10 @@ class Engine(Protocol):
         """Of everything that moves as one, by the name of any body in it; what stands on the ground is left out."""
         ...
 
+    def passing(self) -> set[frozenset[str]] | None:
+        """Pairs of bodies with colliders that do not collide, by their names; None where the engine has no rule of its own."""
+        ...
+
 
 def without_prefixes(text: str) -> str:
     """XML without names of extensions, whose prefixes robots often do not declare."""

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping
+from itertools import combinations
 from pathlib import Path
 from typing import Any
 
@@ -211,6 +212,35 @@ class MujocoModel:
             if int(m.body_weldid[i]) and int(m.body_mocapid[m.body_rootid[i]]) < 0:
                 groups.setdefault(int(m.body_weldid[i]), []).append(i)
         return {self.body_names[group]: self._together(members) for group, members in groups.items()}
+
+    def passing(self) -> set[frozenset[str]]:
+        """As MuJoCo's ``mj_collision`` has it: bodies welded together are one, parents pass but for the world, then excludes, then the
+        masks of geoms; a pair that is stated collides whatever these say."""
+        m = self.model
+        weld = [int(b) for b in m.body_weldid]
+        above = [weld[int(m.body_parentid[b])] for b in weld]
+        excluded = {frozenset((int(s) >> 16, int(s) & 0xFFFF)) for s in m.exclude_signature}
+        of_parents = not int(m.opt.disableflags) & int(self.mujoco.mjtDisableBit.mjDSBL_FILTERPARENT)
+        stated = {
+            frozenset((int(m.geom_bodyid[a]), int(m.geom_bodyid[b])))
+            for a, b in zip(m.pair_geom1, m.pair_geom2)
+        }
+        paired = {int(geom) for geom in (*m.pair_geom1, *m.pair_geom2)}
+        geoms: dict[int, set[tuple[int, int]]] = {}
+        for i in range(m.ngeom):
+            masks = (int(m.geom_contype[i]), int(m.geom_conaffinity[i]))
+            if any(masks) or i in paired:
+                geoms.setdefault(int(m.geom_bodyid[i]), set()).add(masks)
+        found: set[frozenset[str]] = set()
+        for a, b in combinations(sorted(geoms), 2):
+            ends = (weld[a], weld[b])
+            if ends[0] == ends[1] or frozenset((a, b)) in stated:
+                continue
+            parents = of_parents and all(ends) and (ends[0] == above[b] or ends[1] == above[a])
+            meet = any(t & f or u & e for t, e in geoms[a] for u, f in geoms[b])
+            if parents or frozenset((a, b)) in excluded or not meet:
+                found.add(frozenset((self.body_names[a], self.body_names[b])))
+        return found
 
     def _together(self, members: list[int]) -> Mass:
         m, d = self.model, self.data

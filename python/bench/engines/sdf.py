@@ -128,6 +128,9 @@ class DrakePlant:
             if name == whole or name.startswith(f"{whole}::"):
                 yield from self.plant.GetBodyIndices(ModelInstanceIndex(index))
 
+    def passing(self) -> None:
+        """What collides is not asked here."""
+
     def masses(self) -> dict[str, Mass]:
         if self.held:
             return {}  # what a range of one value holds together is one body there, and several here

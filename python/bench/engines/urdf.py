@@ -44,7 +44,7 @@ class PinocchioModel:
             raise Refused(str(error)) from None
         if self.model.njoints == 1 and self.model.nframes <= 1:
             raise Refused("no links")
-        self.mimics = _mimics(text)
+        self.mimics, self.joined = _mimics(text), _joined(text)
         held = [i for i in range(1, self.model.njoints) if self._is_held(i)]
         if held:  # a range of one value is no motion: what it holds moves as one
             at = self._configuration({})
@@ -123,6 +123,10 @@ class PinocchioModel:
             if frame.type == self.pin.BODY
         }
 
+    def passing(self) -> set[frozenset[str]]:
+        """URDF's own rule: what a joint connects."""
+        return self.joined
+
     def masses(self) -> dict[str, Mass]:
         self.pin.forwardKinematics(self.model, self.data, self._configuration({}))
         found = {}
@@ -132,6 +136,15 @@ class PinocchioModel:
             center = place.rotation @ inertia.lever + place.translation
             found[self._child(index)] = Mass(inertia.mass, center, turned)
         return found
+
+
+def _joined(text: str) -> set[frozenset[str]]:
+    """Pairs of links with collisions that a joint connects."""
+    root = ElementTree.fromstring(without_prefixes(text))
+    shaped = {link.get("name", "") for link in root.iter("link") if link.find("collision") is not None}
+    ends = [[joint.find(end) for end in ("parent", "child")] for joint in root.findall("joint")]
+    pairs = {frozenset(end.get("link", "") for end in pair if end is not None) for pair in ends}
+    return {pair for pair in pairs if len(pair) == 2 and pair <= shaped}
 
 
 def _mimics(text: str) -> dict[str, tuple[str, float, float]]:

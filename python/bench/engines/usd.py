@@ -314,6 +314,9 @@ class Stage:
         session.Clear()
         return found
 
+    def passing(self) -> None:
+        """What collides is not asked here."""
+
     def masses(self) -> dict[str, Mass]:
         leader = {path: path for path in self.bodies} | {None: None}
 

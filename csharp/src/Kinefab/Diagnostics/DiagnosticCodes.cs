@@ -333,7 +333,7 @@ public static class DiagnosticCodes
     /// <summary>The exact solver takes the bodies' own masses, not massScale {own} and connectedMassScale {connected}.</summary>
     public const string MassScaleIgnored = "MASS_SCALE_IGNORED";
 
-    /// <summary>The exact solver leaves out {what} of the link.</summary>
+    /// <summary>The exact solver leaves out {what} of the link {object}.</summary>
     public const string LinkNotExact = "LINK_NOT_EXACT";
 
     /// <summary>The recording {path} cannot be read: {detail}.</summary>

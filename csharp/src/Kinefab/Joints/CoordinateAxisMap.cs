@@ -35,7 +35,7 @@ internal readonly struct CoordinateAxisMap
     /// <param name="row">Only its J and GeometricError (= q) hold.</param>
     public double Evaluate(in Pose body0, in Pose body1, double near, out ConstraintRow row)
     {
-        var f = new JointFrames(Joint, body0, body1);
+        Joint.FramesAt(body0, body1, out JointFrames f);
         row = default;
         if (!IsAngle)
         {

@@ -36,6 +36,12 @@ internal sealed class D6Joint : JointModel
     /// <summary>Goal of frame 1 in frame 0.</summary>
     public Pose DrivePose = Pose.Identity;
 
+    /// <summary>
+    /// Goal of the twist drive as an angle with its whole turns, radians: it pulls by the angle that is left, as the drive of an articulation's hinge
+    /// does; NaN: by twice the sine of its half to <see cref="DrivePose"/>, as PhysX's D6.
+    /// </summary>
+    public double DriveTwistAngle = double.NaN;
+
     /// <summary>Goal of the velocity of frame 1 against frame 0, in frame 0's axes, m/s.</summary>
     public Vector3d DriveLinearVelocity;
 
@@ -55,6 +61,7 @@ internal sealed class D6Joint : JointModel
         (DriveX, DriveY, DriveZ) = (d6.DriveX, d6.DriveY, d6.DriveZ);
         (DriveTwist, DriveSwing, DriveSlerp) = (d6.DriveTwist, d6.DriveSwing, d6.DriveSlerp);
         DrivePose = d6.DrivePose;
+        DriveTwistAngle = d6.DriveTwistAngle;
         DriveLinearVelocity = d6.DriveLinearVelocity;
         DriveAngularVelocity = d6.DriveAngularVelocity;
     }
@@ -111,7 +118,7 @@ internal sealed class D6Joint : JointModel
 
     private int Prepare(in Pose body0, in Pose body1, Span<ConstraintRow> rows, bool hasLockedAxes)
     {
-        JointFrames.At(this, body0, body1, out JointFrames f);
+        FramesAt(body0, body1, out JointFrames f);
         f.Axes1(out Vector3d x1, out Vector3d y1, out Vector3d z1);
         var writer = new RowWriter(rows, f.P1, body0.Position, body1.Position, LimitsFromAfar);
 
@@ -150,7 +157,7 @@ internal sealed class D6Joint : JointModel
 
     // With delta = conj(target) * c, target on c's side of the double cover:
     // slerp, three rows: C_i = -delta_i, J_i = row i of 1/2 L R (world axes while there is no stiffness);
-    // twist about X1: C = -2 delta_x; swing about Y1 and Z1: C = the sine of the angle that brings X1 to its goal.
+    // twist about X1: C = -2 delta_x, or the angle to its goal; swing about Y1 and Z1: C = the sine of the angle that brings X1 to its goal.
     // Source: ExtD6Joint.cpp, D6JointSolverPrep; prepareData for which drives count.
     private void AngularDrives(ref RowWriter writer, in JointFrames f, Vector3d x1, Vector3d y1, Vector3d z1)
     {
@@ -190,7 +197,8 @@ internal sealed class D6Joint : JointModel
 
         if (twist)
         {
-            writer.AngularDrive(x1, DriveAngularVelocity.X, -2 * delta.X, DriveTwist);
+            double error = double.IsNaN(DriveTwistAngle) ? -2 * delta.X : DriveTwistAngle - Followed(SwingTwist.TwistAngle(f.Relative.Rotation));
+            writer.AngularDrive(x1, DriveAngularVelocity.X, error, DriveTwist);
         }
 
         if (swing)

@@ -21,23 +21,17 @@ internal struct JointFrames
     private Vector3d _y0;
     private Vector3d _z0;
 
-    /// <summary>As <see cref="At"/>.</summary>
-    public JointFrames(JointModel joint, in Pose body0, in Pose body1) => At(joint, body0, body1, out this);
-
-    /// <summary>Frames at the given body poses; written where they stay, since they are large.</summary>
-    /// <param name="joint">Gives the frames in the bodies; without extended limits Q1 is taken on Q0's side of the
-    /// double cover, so that the relative angle lies in (-pi, pi].</param>
-    /// <param name="body0">Pose of body 0.</param>
-    /// <param name="body1">Pose of body 1.</param>
+    /// <summary>Two frames of the world; written where they stay, since they are large.</summary>
+    /// <param name="f0">Frame 0.</param>
+    /// <param name="f1">Frame 1.</param>
+    /// <param name="extendedLimits">Else Q1 is taken on Q0's side of the double cover, so that the relative angle lies in (-pi, pi].</param>
     /// <param name="f">The frames.</param>
     [MethodImpl(MethodImplOptions.NoInlining)]
-    public static void At(JointModel joint, in Pose body0, in Pose body1, out JointFrames f)
+    public static void Of(in Pose f0, in Pose f1, bool extendedLimits, out JointFrames f)
     {
-        Pose f0 = body0 * joint.Frame0;
-        Pose f1 = body1 * joint.Frame1;
         Quaterniond q0 = f0.Rotation;
         Quaterniond q1 = f1.Rotation;
-        if (!joint.ExtendedLimits && Dot(q0, q1) < 0)
+        if (!extendedLimits && Dot(q0, q1) < 0)
         {
             q1 = Negate(q1);
         }
@@ -48,13 +42,6 @@ internal struct JointFrames
         f.Q1 = q1;
         f.Relative = new Pose(q0.InverseRotate(f1.Position - f0.Position), q0.Conjugate() * q1);
         Axes(q0, out f._x0, out f._y0, out f._z0);
-    }
-
-    /// <summary>Notes the angle about X that a joint has reached, by which its next step counts the turns.</summary>
-    public static void FinishTwist(JointModel joint, in Pose body0, in Pose body1)
-    {
-        At(joint, body0, body1, out JointFrames f);
-        joint.LastTwist = SwingTwist.Nearest(SwingTwist.TwistAngle(f.Relative.Rotation), joint.LastTwist);
     }
 
     /// <summary>Axis 0, 1 or 2 of frame 0 in the world.</summary>

@@ -70,6 +70,16 @@ internal abstract class JointModel
     /// <summary>A broken joint has no rows.</summary>
     public bool IsBroken;
 
+    /// <summary>The joint's frames at poses of its bodies.</summary>
+    public void FramesAt(in Pose body0, in Pose body1, out JointFrames f) => JointFrames.Of(body0 * Frame0, body1 * Frame1, ExtendedLimits, out f);
+
+    /// <summary>Notes the angle about X that the joint has reached, by which its next step counts the turns.</summary>
+    public void FinishTwist(in Pose body0, in Pose body1)
+    {
+        FramesAt(body0, body1, out JointFrames f);
+        LastTwist = SwingTwist.Nearest(SwingTwist.TwistAngle(f.Relative.Rotation), LastTwist);
+    }
+
     /// <summary>A copy of the joint between other bodies.</summary>
     public JointModel Between(int body0, int body1)
     {

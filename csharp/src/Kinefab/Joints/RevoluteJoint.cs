@@ -70,11 +70,15 @@ internal sealed class RevoluteJoint : JointModel
     }
 
     /// <summary>Actor 1's angle against actor 0, radians; see SwingTwist.TwistAngle for its range.</summary>
-    public double Angle(in Pose body0, in Pose body1) => Angle(new JointFrames(this, body0, body1));
+    public double Angle(in Pose body0, in Pose body1)
+    {
+        FramesAt(body0, body1, out JointFrames f);
+        return Angle(f);
+    }
 
     private int Prepare(in Pose body0, in Pose body1, Span<ConstraintRow> rows, bool hasLockedAxes)
     {
-        JointFrames.At(this, body0, body1, out JointFrames f);
+        FramesAt(body0, body1, out JointFrames f);
         var writer = new RowWriter(rows, f.P1, body0.Position, body1.Position, LimitsFromAfar);
         if (hasLockedAxes)
         {

@@ -89,7 +89,7 @@ def _analysed(scene: Scene, options: AnalysisOptions, progress: Callable[[float]
     ranges = found_ranges(assembly, links, closed, report, progress) if options.limits else []
     links = with_found_ranges(assembly, links, ranges, report)
     links = rehung(assembly, links, closed, report)
-    couplings = on_links(assembly, links, couplings_of(assembly, links, closed, report), closed)
+    couplings = on_links(assembly, links, couplings_of(assembly, links, closed, report), closed, report)
     stated = len(couplings)
     couplings = without_standing(assembly, links, couplings, closed, report)
     as_stated = len(closed.nodes) == len(assembly.scene.nodes) and len(couplings) == stated

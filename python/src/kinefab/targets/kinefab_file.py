@@ -19,6 +19,8 @@ from typing import Any, BinaryIO, cast
 from .. import __version__, model
 from ..diagnostics import KinefabError, Report, is_encodable
 from ..replacing import beside, one_at_a_time, remove_leftovers, replacing, sync_directory
+from ..unity.back.extras import put_extras
+from ..unity.back.source import WrittenScene
 from ..unity.container import write_container
 from ..unity.definitions import UV_SETS
 from ..unity.counting import with_led_joints_on_light_bodies
@@ -68,8 +70,12 @@ def write(content: Content, target: Path) -> tuple[Path, ...]:
             if binary:
                 buffer_path = None
                 del numbers["buffers"][0]["uri"]
+        document = _document(scene, looks, numbers, report)
+        if isinstance(content.scene, WrittenScene) and scene is content.scene.written:
+            for way, extras in content.scene.extras_at.items():
+                put_extras(document, way, whole_numbers(extras))
         with replacing(target, "scene") as file:
-            pieces = (piece.encode("utf-8") for piece in canonical_json(_document(scene, looks, numbers, report)))
+            pieces = (piece.encode("utf-8") for piece in canonical_json(document))
             if binary:
                 held = None if temporary is None else stack.enter_context(open(temporary, "rb"))
                 _write_in_one(target, file, pieces, held, report)

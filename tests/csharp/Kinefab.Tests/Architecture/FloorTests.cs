@@ -26,7 +26,7 @@ public sealed class FloorTests
     // The rooms of a hall that has several, from the ground up.
     private static readonly string[] Rooms =
     [
-        "Numerics", "Numerics/Lanes", "Numerics/Sparse",
+        "Numerics", "Numerics/Lanes", "Numerics/Spatial", "Numerics/Sparse",
         "Document", "Document/Couplings", "Document/Joints", "Document/Rendering", "Document/Bodies", "Document/Analysis", "Document/Scene", "Document/Files",
         "Validation/Places", "Validation/Rules/Joints", "Validation/Rules", "Validation",
         "Dynamics/Bodies", "Dynamics/Articulations", "Dynamics/Pgs/Projection", "Dynamics/Pgs", "Dynamics/Rattle/Islands", "Dynamics/Rattle/Lanes", "Dynamics/Rattle/Steps", "Dynamics/Rattle",

@@ -3,6 +3,7 @@ using System.Collections;
 using System.Collections.Generic;
 using System.IO;
 using System.Linq;
+using System.Security.Cryptography;
 using System.Text;
 using Kinefab.Document;
 using Kinefab.Numerics;
@@ -22,7 +23,8 @@ public class SceneSavingTests
     private static IEnumerable<string> Exported => Folders
         .SelectMany(folder => Directory.GetFiles(Path.Combine(Repository, folder), "*.kinefab", SearchOption.AllDirectories))
         .Where(path => !path.Contains("/bin/", StringComparison.Ordinal))
-        .Select(path => Path.GetRelativePath(Repository, path)).Order(StringComparer.Ordinal);
+        .Select(path => Path.GetRelativePath(Repository, path)).Order(StringComparer.Ordinal)
+        .Append("tests/conformance/valid/look/signboard.kinefab");
 
     private static IEnumerable<string> Valid => ConformanceCases.All.Where(entry => entry.Kind == "scene" && entry.Path.StartsWith("valid/", StringComparison.Ordinal)).Select(entry => entry.FullPath);
 
@@ -87,6 +89,33 @@ public class SceneSavingTests
         writer.Write("BIN\0"u8);
         writer.Write(new byte[] { 1, 2, 3, 4, 5, 0, 0, 0 });
         Assert.That(Encoding.Latin1.GetString(bytes), Is.EqualTo(Encoding.Latin1.GetString(expected.ToArray())));
+    }
+
+    /// <summary>A hundred textures, of which no decoder could make a picture: the file's bytes lie where they were read.</summary>
+    [Test]
+    public void Load_AHundredTextures_NeitherDecodesNorCopiesOne()
+    {
+        const int Size = 1 << 16;
+        byte[] pixels = Enumerable.Range(0, 100 * Size).Select(i => (byte)(i * 31)).ToArray();
+        for (int i = 0; i < 100; i++)
+            new byte[] { 0x89, 0x50, 0x4E, 0x47, 0x0D, 0x0A, 0x1A, 0x0A }.CopyTo(pixels, i * Size);
+        using var folder = new Folder();
+        string path = folder.Of("a.kinefab");
+        SceneFile.Save(
+            new SceneDocument
+            {
+                Container = SceneContainer.Binary,
+                Buffers = [new SceneBuffer { Data = pixels, ByteLength = pixels.Length, Sha256 = Convert.ToHexString(SHA256.HashData(pixels)).ToLowerInvariant() }],
+                Images = Enumerable.Range(0, 100).Select(i => new Image { Name = $"{i}.png", MediaType = "image/png", Data = new Accessor { Offset = i * Size }, ByteLength = Size }).ToArray(),
+                Materials = Enumerable.Range(0, 100).Select(i => new Material { Name = $"{i}", ColorTexture = new Texture { Image = i } }).ToArray(),
+            },
+            path);
+        ValidScene.Load(path);
+        long before = GC.GetAllocatedBytesForCurrentThread();
+        ValidScene scene = ValidScene.Load(path);
+        long allocated = GC.GetAllocatedBytesForCurrentThread() - before;
+        Assert.That(allocated, Is.LessThan(1.5 * pixels.Length), "the file, once");
+        Assert.That(scene.Document.BytesOf(scene.Document.Images[99]).Span.SequenceEqual(pixels.AsSpan(99 * Size)));
     }
 
     [Test]

@@ -166,7 +166,7 @@ public sealed class SnapshotTests
     {
         bool flag => !flag,
         int number => number + 1,
-        double number => double.IsInfinity(number) ? 3 : number + 1,
+        double number => double.IsFinite(number) ? number + 1 : 3,
         AxisMotion motion => motion == AxisMotion.Free ? AxisMotion.Limited : AxisMotion.Free,
         Pose => new Pose(new Vector3d(1, 2, 3), Quaterniond.AxisAngle(Vector3d.UnitY, 0.3)),
         Vector3d => new Vector3d(1, 2, 3),

@@ -15,6 +15,10 @@ internal sealed class ArticulatedBodies
     private readonly int[][] _bodies;
     private readonly bool _isReduced;
 
+    // Of each link what other joints did to it in the step; its own joint among the system's, by body.
+    private readonly Wrench[][] _impulses;
+    private readonly int[] _jointOf;
+
     /// <param name="system">Bodies, links among them.</param>
     /// <param name="trees">The articulations, in the poses of the bodies.</param>
     /// <param name="bodies">For each of them the bodies of its links.</param>
@@ -27,6 +31,14 @@ internal sealed class ArticulatedBodies
         HeldJoints = heldJoints;
         _isReduced = Array.IndexOf(heldJoints, true) >= 0;
         Solvers = trees.Select(tree => new ArticulationSolver(tree, rules)).ToArray();
+        _impulses = Solvers.Select(solver => new Wrench[solver.Tree.Count]).ToArray();
+        _jointOf = Enumerable.Repeat(-1, system.Bodies.Count).ToArray();
+        for (int j = 0; j < heldJoints.Length; j++)
+        {
+            if (heldJoints[j])
+                _jointOf[system.Joints[j].Body1] = j;
+        }
+
         ArticulationOf = Enumerable.Repeat(-1, system.Bodies.Count).ToArray();
         LinkOf = new int[system.Bodies.Count];
         for (int a = 0; a < _bodies.Length; a++)
@@ -117,6 +129,26 @@ internal sealed class ArticulatedBodies
                 bodies.Poses[body] = tree.Poses[link];
                 bodies.LinearVelocities[body] = tree.Motions[link].Linear;
                 bodies.AngularVelocities[body] = tree.Motions[link].Angular;
+            }
+        }
+    }
+
+    /// <summary>Of an articulation's links what other joints and couplings did to them in the last step; to be filled in before <see cref="Write"/>.</summary>
+    public Wrench[] Impulses(int articulation) => _impulses[articulation];
+
+    /// <summary>The last step's reactions of the joints that articulations hold: on the link above, the torque about the anchor in the link.</summary>
+    public void Write(JointReaction[] reactions)
+    {
+        for (int a = 0; a < Solvers.Length; a++)
+        {
+            Wrench[] impulses = _impulses[a];
+            Solvers[a].Reactions(impulses, impulses);
+            for (int link = 1; link < impulses.Length; link++)
+            {
+                int joint = _jointOf[_bodies[a][link]];
+                Wrench w = impulses[link];
+                if (joint >= 0)
+                    reactions[joint] = w.Force.IsFinite && w.Torque.IsFinite ? new JointReaction { Force = -w.Force, Torque = -w.Torque } : default;
             }
         }
     }

@@ -16,10 +16,16 @@ internal sealed class ArticulationSolver
 
     private readonly Wrench[] _external;
     private readonly Wrench[] _internal;
-    private readonly Wrench[] _transmitted;
+    private readonly CarriedWrenches _carried;
     private readonly Twist[] _scratch;
     private readonly Twist[] _accelerations;
     private readonly double[] _noForces;
+
+    // As the step began and ended, for what the joints carried in it.
+    private readonly Pose[] _startPoses;
+    private readonly Twist[] _startMotions;
+    private readonly Twist[] _endMotions;
+    private readonly double[] _jointForces;
 
     // Of the position iterations: they move the links.
     private readonly double[] _movingSpeeds;
@@ -40,10 +46,14 @@ internal sealed class ArticulationSolver
         Applied = new Wrench[n];
         _external = new Wrench[n];
         _internal = new Wrench[n];
-        _transmitted = new Wrench[n];
+        _carried = new CarriedWrenches(tree);
         _scratch = new Twist[n];
         _accelerations = new Twist[n];
         _noForces = new double[tree.Freedoms];
+        _startPoses = new Pose[n];
+        _startMotions = new Twist[n];
+        _endMotions = new Twist[n];
+        _jointForces = new double[tree.Freedoms];
         _movingSpeeds = new double[tree.Freedoms];
         _movingMotions = new Twist[n];
     }
@@ -90,9 +100,11 @@ internal sealed class ArticulationSolver
         LimitSpeeds();
         if (Tree.IsFixed)
             Tree.Motions[0] = default;
-        TreeKinematics.Move(Tree);
-        FindForces(gravity);
         _dynamics.Update();
+        Tree.Poses.CopyTo(_startPoses, 0);
+        Tree.Motions.CopyTo(_startMotions, 0);
+        Tree.Forces.CopyTo(_jointForces, 0);
+        FindForces(gravity);
         _dynamics.FindInertias();
         if (Tree.IsFixed || !_rules.KeepsMomentum)
         {
@@ -119,10 +131,7 @@ internal sealed class ArticulationSolver
             _hasFriction |= link.Friction > 0;
         if (!_needsFlush)
             return;
-        Responses.FindResponses();
-        if (_hasFriction)
-            FindTransmitted();
-        _sweeps.Prepare(dt, _transmitted);
+        _sweeps.Prepare(dt, hasJoints, _hasFriction ? _carried.Find(_startPoses, _dynamics.Levers, _accelerations, _external) : default);
         _sweeps.Start();
     }
 
@@ -144,6 +153,7 @@ internal sealed class ArticulationSolver
     public void Finish()
     {
         Flush();
+        Tree.Motions.CopyTo(_endMotions, 0);
         bool keepsMomentum = !Tree.IsFixed && _rules.KeepsMomentum;
         MomentumBalance before = keepsMomentum ? MomentumBalance.Of(Tree) : default;
         Vector3d moved = Vector3d.Zero;
@@ -159,6 +169,36 @@ internal sealed class ArticulationSolver
             Advance(i);
         if (keepsMomentum)
             KeepMomentum(before, moved * (_dt / before.Mass));
+    }
+
+    /// <summary>
+    /// What each link's joint did to it in the last step on average, but for drives, friction and forces on the freedoms: the constraint of its
+    /// locked axes and limits. World axes, N and N m, about the joint's anchor in the link; that of the root has no meaning.
+    /// </summary>
+    /// <param name="impulses">What other joints and couplings did to the links, about their centres of mass, N s and N m s.</param>
+    /// <param name="reactions">Takes them.</param>
+    public void Reactions(ReadOnlySpan<Wrench> impulses, Span<Wrench> reactions)
+    {
+        double rate = 1 / _dt;
+        for (int i = 0; i < Tree.Count; i++)
+        {
+            _scratch[i] = (_endMotions[i] - _startMotions[i]) * rate;
+            reactions[i] = _external[i] + impulses[i] * rate;
+        }
+
+        ReadOnlySpan<Wrench> carried = _carried.Find(_startPoses, _dynamics.Levers, _scratch, reactions);
+        for (int i = 1; i < Tree.Count; i++)
+        {
+            bool slides = Tree.Links[i].Joint == LinkJointKind.Prismatic;
+            Wrench reaction = carried[i].From(_startPoses[i].Rotation * -Tree.Links[i].Anchor.Position);
+            for (int f = Tree.FirstFreedom[i]; f < Tree.FirstFreedom[i + 1]; f++)
+            {
+                double motor = _jointForces[f] + (_needsFlush ? _sweeps.MotorImpulse(f) * rate : 0);
+                reaction -= slides ? new Wrench(_dynamics.Axis[f].Linear * motor, Vector3d.Zero) : new Wrench(Vector3d.Zero, _dynamics.Axis[f].Angular * motor);
+            }
+
+            reactions[i] = reaction;
+        }
     }
 
     private void LimitSpeeds()
@@ -205,40 +245,22 @@ internal sealed class ArticulationSolver
     private void Accelerate(Wrench[] forces, double[] jointForces, bool withSpeedTerms)
     {
         _dynamics.Accelerate(forces, jointForces, withSpeedTerms);
+        bool addsUp = !Tree.IsFixed && _rules.KeepsMomentum;
         for (int i = 0; i < Tree.Count; i++)
         {
-            Tree.Motions[i] += _dynamics.Accelerations[i] * _dt;
-            _accelerations[i] = Tree.IsFixed || !_rules.KeepsMomentum ? _dynamics.Accelerations[i] : _accelerations[i] + _dynamics.Accelerations[i];
+            Twist acceleration = _dynamics.Accelerations[i];
+            Tree.Motions[i] += acceleration * _dt;
+            _accelerations[i] = addsUp ? _accelerations[i] + acceleration : acceleration;
         }
 
         for (int f = 0; f < Tree.Freedoms; f++)
-        {
-            double speed = Tree.Speeds[f] + _dynamics.JointAccelerations[f] * _dt;
-            Tree.Speeds[f] = speed;
-        }
-    }
-
-    // What a joint carries: its branch's mass times acceleration less the forces on it.
-    private void FindTransmitted()
-    {
-        for (int i = 0; i < Tree.Count; i++)
-        {
-            LinkDefinition link = Tree.Links[i];
-            Quaterniond q = Tree.Poses[i].Rotation;
-            Twist a = _accelerations[i];
-            _transmitted[i] = new Wrench(a.Linear * link.Mass, q * Vector3d.Scale(link.Inertia, q.InverseRotate(a.Angular))) - _external[i];
-        }
-
-        for (int i = Tree.Count - 1; i > 1; i--)
-            _transmitted[Tree.Parents[i]] += _transmitted[i].From(_dynamics.Levers[i]);
+            Tree.Speeds[f] += _dynamics.JointAccelerations[f] * _dt;
     }
 
     private void Flush()
     {
-        if (!_needsFlush)
-            return;
-        Responses.Flush(Tree.Motions, Tree.Speeds, _scratch);
-        _sweeps.Start();
+        if (_needsFlush)
+            _sweeps.Flush();
     }
 
     private Pose Integrate(in Pose pose, in Twist motion) =>

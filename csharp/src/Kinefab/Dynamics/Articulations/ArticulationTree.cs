@@ -31,6 +31,9 @@ internal sealed class ArticulationTree
     /// <summary>Of each freedom the motion that speed 1 gives the link, in the link's own frame.</summary>
     public readonly Twist[] OwnAxes;
 
+    /// <summary>Of each link its frame in that of its joint's anchor.</summary>
+    public readonly Pose[] FromAnchors;
+
     /// <summary>Metres or radians; those of a spherical joint are the rotation vector of its relative rotation, in the anchors' axes.</summary>
     public readonly double[] Positions;
 
@@ -82,11 +85,13 @@ internal sealed class ArticulationTree
         Positions = new double[axes.Count];
         Speeds = new double[axes.Count];
         Forces = new double[axes.Count];
+        FromAnchors = new Pose[n];
         Poses = new Pose[n];
         Motions = new Twist[n];
         Poses[0] = root;
         for (int i = 1; i < n; i++)
         {
+            FromAnchors[i] = links[i].Anchor.Inverse();
             for (int f = FirstFreedom[i]; f < FirstFreedom[i + 1]; f++)
                 OwnAxes[f] = OwnAxis(links[i], AxisOf[f]);
         }

@@ -29,8 +29,8 @@ internal struct AxisRows
     private double _low;
     private double _high;
 
-    /// <summary>Drive's impulse of the step, N s or N m s.</summary>
-    public readonly double DriveImpulse => _drive;
+    /// <summary>Impulse of drive and friction in the step, N s or N m s.</summary>
+    public readonly double MotorImpulse => _drive + _friction;
 
     /// <summary>Whether a sweep may give an impulse.</summary>
     public readonly bool IsIdle(double speed) => !_hasDrive && !_isLimited && MaxFriction <= 0 && Math.Abs(speed) <= MaxSpeed;
@@ -72,7 +72,9 @@ internal struct AxisRows
 
         if (_hasDrive)
         {
-            double drive = Math.Min(Math.Max(_driveShare * _drive + _driveSpeed * speed + _driveConstant, -_maxDrive), _maxDrive);
+            double drive = _driveShare * _drive + _driveSpeed * speed + _driveConstant;
+            if (Math.Abs(drive) > _maxDrive)
+                drive = drive > 0 ? _maxDrive : -_maxDrive;
             Give(drive - _drive, ref total, ref speed);
             _drive = drive;
         }

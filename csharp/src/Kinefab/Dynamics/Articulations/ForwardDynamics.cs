@@ -23,9 +23,6 @@ internal sealed class ForwardDynamics
     /// <summary>Inertia of a link with all that hangs below it (I^A), joints free.</summary>
     public readonly SpatialMatrix[] Inertias;
 
-    /// <summary>I^A S.</summary>
-    public readonly Wrench[] InertiaAxes;
-
     /// <summary>(S^T I^A S)^-1, nine numbers a link, rows first.</summary>
     public readonly double[] InverseInertias;
 
@@ -58,7 +55,6 @@ internal sealed class ForwardDynamics
         Levers = new Vector3d[n];
         Axis = new Twist[m];
         Inertias = new SpatialMatrix[n];
-        InertiaAxes = new Wrench[m];
         InverseInertias = new double[n * Axes * Axes];
         Reactions = new Wrench[m];
         SpeedTerms = new Twist[n];
@@ -67,7 +63,7 @@ internal sealed class ForwardDynamics
         _bias = new Wrench[n];
     }
 
-    /// <summary>Axes, levers and what follows from speeds, at the tree's poses and motions.</summary>
+    /// <summary>Axes, levers, the links' motions and what else follows from the joints' speeds, at the tree's poses.</summary>
     public void Update()
     {
         for (int i = 1; i < _tree.Count; i++)
@@ -76,16 +72,21 @@ internal sealed class ForwardDynamics
             Quaterniond q = _tree.Poses[i].Rotation;
             Vector3d lever = _tree.Poses[i].Position - _tree.Poses[parent].Position;
             Levers[i] = lever;
-            Vector3d w = _tree.Motions[parent].Angular;
+            Twist motion = _tree.Motions[parent].At(lever);
+            Vector3d w = motion.Angular;
             Vector3d angular = Vector3d.Zero;
             Vector3d linear = Vector3d.Zero;
             for (int f = _tree.FirstFreedom[i]; f < _tree.FirstFreedom[i + 1]; f++)
             {
                 Twist axis = TreeKinematics.Turned(q, _tree.OwnAxes[f]);
                 Axis[f] = axis;
-                angular += axis.Angular * _tree.Speeds[f];
-                linear += axis.Linear * _tree.Speeds[f];
+                Twist own = axis * _tree.Speeds[f];
+                angular += own.Angular;
+                linear += own.Linear;
+                motion += own;
             }
+
+            _tree.Motions[i] = motion;
 
             // w x (w x r), and of the joint's own motion (u, s): (w x u, 2 w x s + u x s).
             SpeedTerms[i] = new Twist(
@@ -103,31 +104,32 @@ internal sealed class ForwardDynamics
             Inertias[i] = SpatialMatrix.Inertia(link.Mass, link.Inertia, _tree.Poses[i].Rotation);
         }
 
+        Span<Wrench> axes = stackalloc Wrench[Axes];
         for (int i = _tree.Count - 1; i > 0; i--)
         {
             ref SpatialMatrix inertia = ref Inertias[i];
             int first = _tree.FirstFreedom[i];
             int count = _tree.FirstFreedom[i + 1] - first;
-            for (int f = first; f < first + count; f++)
-                InertiaAxes[f] = inertia.Times(Axis[f]);
+            for (int k = 0; k < count; k++)
+                axes[k] = inertia.Times(Axis[first + k]);
             SpatialMatrix seen = inertia;
             if (count == 1)
             {
-                double d = Wrench.Dot(InertiaAxes[first], Axis[first]);
+                double d = Wrench.Dot(axes[0], Axis[first]);
                 double inverse = d > 0 ? 1 / d : 0;
                 InverseInertias[i * Axes * Axes] = inverse;
-                Reactions[first] = InertiaAxes[first] * inverse;
-                seen.Subtract(InertiaAxes[first], inverse);
+                Reactions[first] = axes[0] * inverse;
+                seen.Subtract(axes[0], inverse);
             }
             else if (count > 1)
             {
-                InvertSeveral(i, first, count);
-                for (int f = first; f < first + count; f++)
-                    seen.SubtractBoth(InertiaAxes[f], Reactions[f]);
+                InvertSeveral(i, axes.Slice(0, count));
+                for (int k = 0; k < count; k++)
+                    seen.SubtractBoth(axes[k], Reactions[first + k]);
             }
 
             int parent = _tree.Parents[i];
-            Inertias[parent] += seen.From(Levers[i]);
+            Inertias[parent].AddFrom(seen, Levers[i]);
         }
 
         RootResponse = _tree.IsFixed ? default : Inertias[0].Response();
@@ -162,7 +164,7 @@ internal sealed class ForwardDynamics
         for (int i = 1; i < _tree.Count; i++)
         {
             Twist acceleration = Accelerations[_tree.Parents[i]].At(Levers[i]);
-            Answer(i, acceleration, JointAccelerations, JointAccelerations);
+            Answer(i, acceleration);
             if (SpeedLimitStep > 0)
                 LimitSpeeds(i);
             if (withSpeedTerms)
@@ -173,27 +175,21 @@ internal sealed class ForwardDynamics
         }
     }
 
-    /// <summary>What a joint's freedoms answer to a change of the parent's motion (seen at the link) and to impulses on them: (S^T I S)^-1 (impulse - (I S)^T change).</summary>
-    public void Answer(int link, in Twist parentChange, ReadOnlySpan<double> impulses, Span<double> answers)
+    // From the forces that are left on a joint's freedoms to their accelerations: D^-1 force - R^T a, for a parent's acceleration a.
+    private void Answer(int link, in Twist above)
     {
         int first = _tree.FirstFreedom[link];
         int count = _tree.FirstFreedom[link + 1] - first;
-        int at = link * Axes * Axes;
-        if (count == 1)
-        {
-            answers[first] = InverseInertias[at] * (impulses[first] - Wrench.Dot(InertiaAxes[first], parentChange));
-            return;
-        }
-
-        Vector3d rest = default;
+        Span<double> forces = stackalloc double[Axes];
+        for (int k = 0; k < count; k++)
+            forces[k] = JointAccelerations[first + k];
         for (int k = 0; k < count; k++)
         {
-            double value = impulses[first + k] - Wrench.Dot(InertiaAxes[first + k], parentChange);
-            rest += new Vector3d(k == 0 ? value : 0, k == 1 ? value : 0, k == 2 ? value : 0);
+            double answer = -Wrench.Dot(Reactions[first + k], above);
+            for (int l = 0; l < count; l++)
+                answer += InverseInertias[(link * Axes + k) * Axes + l] * forces[l];
+            JointAccelerations[first + k] = answer;
         }
-
-        for (int k = 0; k < count; k++)
-            answers[first + k] = InverseInertias[at + 3 * k] * rest.X + InverseInertias[at + 3 * k + 1] * rest.Y + InverseInertias[at + 3 * k + 2] * rest.Z;
     }
 
     private void LimitSpeeds(int link)
@@ -207,8 +203,11 @@ internal sealed class ForwardDynamics
         }
     }
 
-    private void InvertSeveral(int link, int first, int count)
+    private void InvertSeveral(int link, ReadOnlySpan<Wrench> axes)
     {
+        int first = _tree.FirstFreedom[link];
+        int count = axes.Length;
+
         // Missing freedoms stand as ones on the diagonal.
         Span<double> d = stackalloc double[9];
         d.Clear();
@@ -217,7 +216,7 @@ internal sealed class ForwardDynamics
         for (int k = 0; k < count; k++)
         {
             for (int l = 0; l < count; l++)
-                d[3 * k + l] = Wrench.Dot(InertiaAxes[first + k], Axis[first + l]);
+                d[3 * k + l] = Wrench.Dot(axes[k], Axis[first + l]);
         }
 
         SpatialMatrix.Invert(new Vector3d(d[0], d[3], d[6]), new Vector3d(d[1], d[4], d[7]), new Vector3d(d[2], d[5], d[8]), out Vector3d x, out Vector3d y, out Vector3d z);
@@ -233,7 +232,7 @@ internal sealed class ForwardDynamics
         {
             Wrench reaction = default;
             for (int l = 0; l < count; l++)
-                reaction += InertiaAxes[first + l] * InverseInertias[link * 9 + 3 * l + k];
+                reaction += axes[l] * InverseInertias[link * 9 + 3 * l + k];
             Reactions[first + k] = reaction;
         }
     }

@@ -18,16 +18,19 @@ internal sealed class JointSweeps
     private readonly AxisRows[] _rows;
 
     // Of each link the motion's change in this sweep, as its children see it, and the impulses from them.
-    private readonly Twist[] _changes;
-    private readonly Wrench[] _impulses;
+    private readonly SharedTwist[] _changes;
+    private readonly SharedWrench[] _impulses;
 
-    // Of each freedom: speed before the sweeps, impulse of this visit, what a unit of impulse does to the link and to the joint's freedoms.
+    // Of each freedom: speed before the sweeps, impulse of this visit.
     private readonly double[] _startSpeeds;
     private readonly double[] _given;
-    private readonly Twist[] _linkResponses;
-    private readonly double[] _jointResponses;
+
+    // Few freedoms: the speeds themselves go through the sweeps, and the impulses and speeds since the last flush are known.
+    private readonly JointSpaceResponse? _small;
+    private readonly double[] _flushedSpeeds;
 
     private bool _hasGiven;
+    private bool _isSmall;
 
     /// <summary>Rows of joints to the world; null: none.</summary>
     public ILinkRows? WorldRows;
@@ -39,12 +42,12 @@ internal sealed class JointSweeps
         _responses = responses;
         _rules = rules;
         _rows = new AxisRows[tree.Freedoms];
-        _changes = new Twist[tree.Count];
-        _impulses = new Wrench[tree.Count];
-        _startSpeeds = new double[tree.Freedoms];
+        _changes = new SharedTwist[tree.Count];
+        _impulses = new SharedWrench[tree.Count];
+        _startSpeeds = new double[JointSpaceResponse.PaddedCount(tree.Freedoms)];
+        _flushedSpeeds = new double[tree.Freedoms];
+        _small = tree.Freedoms <= JointSpaceResponse.MostFreedoms ? new JointSpaceResponse(tree, dynamics) : null;
         _given = new double[tree.Freedoms];
-        _linkResponses = new Twist[tree.Freedoms];
-        _jointResponses = new double[tree.Freedoms * Axes];
     }
 
     /// <summary>Whether a sweep may do anything: else the responses need not be found.</summary>
@@ -64,24 +67,31 @@ internal sealed class JointSweeps
         return false;
     }
 
-    /// <summary>Rows of the step; needs the responses.</summary>
+    /// <summary>Rows of the step, and the responses that they need.</summary>
     /// <param name="dt">s.</param>
+    /// <param name="hasJoints">Whether rows of others act on the links.</param>
     /// <param name="transmitted">Of each link what its joint carries, for friction.</param>
-    public void Prepare(double dt, ReadOnlySpan<Wrench> transmitted)
+    public void Prepare(double dt, bool hasJoints, ReadOnlySpan<Wrench> transmitted)
     {
+        _isSmall = _small != null && !hasJoints;
+        if (_isSmall)
+            _small!.Find();
+        if (!_isSmall || _rules.ComplianceShare > 0)
+            _responses.FindResponses();
         for (int i = 1; i < _tree.Count; i++)
         {
             int first = _tree.FirstFreedom[i];
             int count = _tree.FirstFreedom[i + 1] - first;
             LinkDefinition link = _tree.Links[i];
-            double compliance = _rules.Compliance + _rules.ComplianceShare * Math.Max(_responses.Links[i].LargestLinear, _responses.Links[_tree.Parents[i]].LargestLinear);
+            double compliance = _rules.Compliance;
+            if (_rules.ComplianceShare > 0)
+                compliance += _rules.ComplianceShare * Math.Max(_responses.Links[i].LargestLinear, _responses.Links[_tree.Parents[i]].LargestLinear);
             double maxFriction = link.Friction > 0 ? Length(transmitted[i]) * link.Friction * dt : 0;
             for (int k = 0; k < count; k++)
             {
                 int f = first + k;
-                FindResponse(i, first, count, k);
                 ref AxisRows row = ref _rows[f];
-                row.Response = _jointResponses[f * Axes + k];
+                row.Response = _isSmall ? _small!.Own(f) : _responses.AxisSpeeds[f * Axes + k];
                 row.InverseResponse = row.Response > 0 ? 1 / (row.Response + compliance) : 0;
                 row.MaxFriction = maxFriction;
                 row.MaxSpeed = link.MaxJointSpeed;
@@ -92,7 +102,27 @@ internal sealed class JointSweeps
         }
     }
 
-    /// <summary>Speeds from which the sweeps go on, as the links' motions have them: after their prediction and after each flush.</summary>
+    /// <summary>Adds what the sweeps gave to the links' motions and the joints' speeds.</summary>
+    public void Flush()
+    {
+        if (!_isSmall)
+        {
+            _responses.Flush(_tree.Motions, _tree.Speeds, _startSpeeds);
+            return;
+        }
+
+        for (int f = 0; f < _flushedSpeeds.Length; f++)
+        {
+            double change = _startSpeeds[f] - _flushedSpeeds[f];
+            _flushedSpeeds[f] = change;
+            _tree.Speeds[f] += change;
+        }
+
+        _small!.Move(_flushedSpeeds, _given, _tree.Motions);
+        Mark();
+    }
+
+    /// <summary>Speeds from which the sweeps start, as the links' motions have them after their prediction.</summary>
     public void Start()
     {
         for (int i = 1; i < _tree.Count; i++)
@@ -101,13 +131,18 @@ internal sealed class JointSweeps
             for (int f = _tree.FirstFreedom[i]; f < _tree.FirstFreedom[i + 1]; f++)
                 _startSpeeds[f] = _tree.Links[i].Joint == LinkJointKind.Prismatic ? Vector3d.Dot(_dynamics.Axis[f].Linear, relative.Linear) : Vector3d.Dot(_dynamics.Axis[f].Angular, relative.Angular);
         }
+
+        if (_isSmall)
+            Mark();
     }
 
     /// <summary>One sweep; false when no row gave anything, so that another would not either.</summary>
     public bool Sweep(bool isVelocityIteration, double dt)
     {
         _hasGiven = false;
-        _changes[0] = _dynamics.RootResponse.Times(_responses.RootKept);
+        if (_isSmall)
+            return SweepSmall(isVelocityIteration, dt);
+        _changes[0] = _responses.RootChange;
         _impulses[0] = default;
         SolveWorldRows(0);
         int at = 0;
@@ -126,6 +161,31 @@ internal sealed class JointSweeps
         return _hasGiven;
     }
 
+    private bool SweepSmall(bool isVelocityIteration, double dt)
+    {
+        bool hasGiven = false;
+        for (int f = 0; f < _given.Length; f++)
+        {
+            double given = _rows[f].Solve(_startSpeeds[f], isVelocityIteration, dt, _rules);
+            if (given == 0)
+                continue;
+            hasGiven = true;
+            _given[f] += given;
+            _small!.Add(f, given, _startSpeeds);
+        }
+
+        return hasGiven;
+    }
+
+    private void Mark()
+    {
+        Array.Copy(_startSpeeds, _flushedSpeeds, _flushedSpeeds.Length);
+        Array.Clear(_given, 0, _given.Length);
+    }
+
+    /// <summary>Impulse of a freedom's drive and friction in the step, N s or N m s.</summary>
+    public double MotorImpulse(int freedom) => _rows[freedom].MotorImpulse;
+
     private void Enter(int link, int parent, bool isVelocityIteration, double dt)
     {
         _impulses[link] = default;
@@ -141,38 +201,34 @@ internal sealed class JointSweeps
     // Nearly all joints: as EnterSeveral, without its loops.
     private void EnterOne(int link, int parent, int freedom, bool isVelocityIteration, double dt)
     {
-        ref Twist above = ref _changes[parent];
-        Vector3d angular = above.Angular;
-        Vector3d linear = above.Linear + Vector3d.Cross(angular, _dynamics.Levers[link]);
-        ref Wrench inertia = ref _dynamics.InertiaAxes[freedom];
-        double answer = _dynamics.InverseInertias[link * Axes * Axes]
-            * (_responses.Kept[freedom] - Vector3d.Dot(inertia.Force, linear) - Vector3d.Dot(inertia.Torque, angular));
+        ref SharedTwist above = ref _changes[parent];
+        double answer = _dynamics.InverseInertias[link * Axes * Axes] * _responses.Kept[freedom] - SharedTwist.Dot(_responses.Reactions[freedom], above);
         double given = _rows[freedom].Solve(_startSpeeds[freedom] + answer, isVelocityIteration, dt, _rules);
         _given[freedom] = given;
         _hasGiven |= given != 0;
-        ref Twist axis = ref _dynamics.Axis[freedom];
-        ref Twist response = ref _linkResponses[freedom];
-        _changes[link] = new Twist(
-            angular + axis.Angular * answer + response.Angular * given,
-            linear + axis.Linear * answer + response.Linear * given);
+        _changes[link] = above + _responses.Axis[freedom] * answer + _responses.AxisChanges[freedom] * given;
     }
 
     private void EnterSeveral(int link, int parent, int first, int end, bool isVelocityIteration, double dt)
     {
-        Twist change = _changes[parent].At(_dynamics.Levers[link]);
-        _dynamics.Answer(link, change, _responses.Kept, _responses.Changes);
-        for (int f = first; f < end; f++)
-            change += _dynamics.Axis[f] * _responses.Changes[f];
+        SharedTwist change = _changes[parent];
+        Span<double> speeds = stackalloc double[Axes];
         for (int f = first; f < end; f++)
         {
-            double given = _rows[f].Solve(_startSpeeds[f] + _responses.Changes[f], isVelocityIteration, dt, _rules);
+            speeds[f - first] = _responses.Speed(link, f, _changes[parent]);
+            change += _responses.Axis[f] * speeds[f - first];
+        }
+
+        for (int f = first; f < end; f++)
+        {
+            double given = _rows[f].Solve(_startSpeeds[f] + speeds[f - first], isVelocityIteration, dt, _rules);
             _given[f] = given;
             if (given == 0)
                 continue;
             _hasGiven = true;
-            change += _linkResponses[f] * given;
+            change += _responses.AxisChanges[f] * given;
             for (int k = f + 1; k < end; k++)
-                _responses.Changes[k] += _jointResponses[f * Axes + k - first] * given;
+                speeds[k - first] += _responses.AxisSpeeds[f * Axes + k - first] * given;
         }
 
         _changes[link] = change;
@@ -180,42 +236,32 @@ internal sealed class JointSweeps
 
     private void SolveWorldRows(int link)
     {
-        if (WorldRows != null && WorldRows.Has(link))
-            _hasGiven |= WorldRows.Solve(link, ref _changes[link], ref _impulses[link]);
+        if (WorldRows == null || !WorldRows.Has(link))
+            return;
+        Twist change = _changes[link].At(_responses.Arms[link]);
+        Wrench impulse = default;
+        if (!WorldRows.Solve(link, ref change, ref impulse))
+            return;
+        _hasGiven = true;
+        _changes[link] = new SharedTwist(change, _responses.Arms[link]);
+        _impulses[link] += new SharedWrench(impulse, _responses.Arms[link]);
     }
 
     private void Leave(int link)
     {
-        Wrench impulse = _impulses[link];
-        Wrench passed = impulse;
+        SharedWrench impulse = _impulses[link];
+        SharedWrench passed = impulse;
         for (int f = _tree.FirstFreedom[link]; f < _tree.FirstFreedom[link + 1]; f++)
         {
-            double onFreedom = _given[f] + Wrench.Dot(impulse, _dynamics.Axis[f]);
+            double onFreedom = _given[f] + SharedTwist.Dot(impulse, _responses.Axis[f]);
             _responses.Kept[f] += onFreedom;
-            passed -= _dynamics.Reactions[f] * onFreedom;
+            passed -= _responses.Reactions[f] * onFreedom;
         }
 
-        passed = passed.From(_dynamics.Levers[link]);
         int parent = _tree.Parents[link];
         _impulses[parent] += passed;
         if (link != _tree.LastChildren[parent])
-            _changes[parent] += _responses.Links[parent].Times(passed);
-    }
-
-    private void FindResponse(int link, int first, int count, int k)
-    {
-        Twist change = _responses.Links[_tree.Parents[link]].Times((_dynamics.Reactions[first + k] * -1).From(_dynamics.Levers[link])).At(_dynamics.Levers[link]);
-        for (int l = 0; l < count; l++)
-            _responses.Changes[first + l] = l == k ? 1 : 0;
-        _dynamics.Answer(link, change, _responses.Changes, _responses.Changes);
-        for (int l = 0; l < count; l++)
-        {
-            double answer = _responses.Changes[first + l];
-            _jointResponses[(first + k) * Axes + l] = answer;
-            change += _dynamics.Axis[first + l] * answer;
-        }
-
-        _linkResponses[first + k] = change;
+            _changes[parent] += new SharedTwist(_responses.Links[parent].Times(passed.At(_responses.Arms[parent])), _responses.Arms[parent]);
     }
 
     // Twice the vector part of what is left of the turn to the targets' rotation vector.

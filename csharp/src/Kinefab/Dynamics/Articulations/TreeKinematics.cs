@@ -37,8 +37,7 @@ internal static class TreeKinematics
     /// <summary>A link's pose from its parent's and the joint's: F0 c F1^-1.</summary>
     public static Pose Place(ArticulationTree tree, int link, in Pose relative)
     {
-        LinkDefinition definition = tree.Links[link];
-        Pose pose = tree.Poses[tree.Parents[link]] * definition.ParentAnchor * relative * definition.Anchor.Inverse();
+        Pose pose = tree.Poses[tree.Parents[link]] * tree.Links[link].ParentAnchor * relative * tree.FromAnchors[link];
         return new Pose(pose.Position, pose.Rotation.Normalized());
     }
 

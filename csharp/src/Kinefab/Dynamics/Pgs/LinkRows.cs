@@ -181,7 +181,7 @@ internal sealed class LinkRows
         return broken;
     }
 
-    /// <summary>Adds the step's forces and torques on actor 0, the torque about the anchor in actor 1.</summary>
+    /// <summary>Writes the step's forces and torques on actor 0, the torque about the anchor in actor 1: of these joints and of the links' own.</summary>
     public void Write(JointReaction[] reactions, double dt)
     {
         for (int i = 0; i < _count;)
@@ -191,6 +191,21 @@ internal sealed class LinkRows
             if (j >= 0)
                 reactions[j] = new JointReaction { Force = impulse.Force * (1 / dt), Torque = impulse.Torque * (1 / dt) };
         }
+
+        for (int a = 0; a < _links.Solvers.Length; a++)
+            Array.Clear(_links.Impulses(a), 0, _links.Impulses(a).Length);
+        for (int i = 0; i < _count; i++)
+        {
+            ref Row row = ref _made[i];
+            for (int p = row.First; p < row.First + row.Parts; p++)
+            {
+                ref Part part = ref _parts[p];
+                if (_links.IsLink(part.Body))
+                    _links.Impulses(_links.ArticulationOf[part.Body])[_links.LinkOf[part.Body]] += part.Direction * _rows.Impulses[i];
+            }
+        }
+
+        _links.Write(reactions);
     }
 
     private JointReaction Sum(ref int i)

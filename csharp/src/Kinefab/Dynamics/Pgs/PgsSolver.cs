@@ -130,7 +130,7 @@ internal sealed class PgsSolver : ISolver
         }
 
         bool broken = _reactions.Break(blocks, dt) | _linkRows.Break(dt);
-        if (_linkRows.IsNeeded)
+        if (_articulated.Solvers.Length > 0)
         {
             _unread = _mechanism.UnreadReactions;
             _mechanism.UnreadReactions = _writeReactions;

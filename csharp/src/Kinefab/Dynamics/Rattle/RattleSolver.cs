@@ -43,7 +43,7 @@ internal sealed class RattleSolver : ISolver
         foreach (JointModel joint in mechanism.Joints)
         {
             joint.LimitsFromAfar = true;
-            JointFrames.FinishTwist(joint, mechanism.Bodies.PoseOf(joint.Body0), mechanism.Bodies.PoseOf(joint.Body1));
+            joint.FinishTwist(mechanism.Bodies.PoseOf(joint.Body0), mechanism.Bodies.PoseOf(joint.Body1));
         }
 
         foreach (InconsistentLoop loop in loops)

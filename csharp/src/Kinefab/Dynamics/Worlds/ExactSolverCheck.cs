@@ -24,7 +24,7 @@ internal static class ExactSolverCheck
                 }
                 else if (objects[i].Components[c] is ArticulationBody link && !scene.IsRootLink(i) && LeftOut(link) is string what)
                 {
-                    found.Add(Finding(DiagnosticCodes.LinkNotExact, $"/gameObjects/{Text(i)}/components/{Text(c)}", ("what", what)));
+                    found.Add(Finding(DiagnosticCodes.LinkNotExact, $"/gameObjects/{Text(i)}/components/{Text(c)}", ("what", what), ("object", objects[i].Id)));
                 }
             }
         }

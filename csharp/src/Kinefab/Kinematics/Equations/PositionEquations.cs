@@ -58,7 +58,7 @@ internal sealed class PositionEquations
         {
             JointModel joint = _linkage.Joints[j];
             Pose body0 = Linkage.PoseOf(joint.Body0, poses), body1 = Linkage.PoseOf(joint.Body1, poses);
-            JointFrames.At(joint, body0, body1, out JointFrames frames);
+            joint.FramesAt(body0, body1, out JointFrames frames);
             int count = joint.PrepareLocked(frames, body0.Position, body1.Position, _rows);
             for (int i = 0; i < count; i++)
             {

@@ -152,7 +152,7 @@ internal sealed class TreeMotion
         for (int n = 0; ; n++)
         {
             Pose body0 = Linkage.PoseOf(joint.Body0, poses), body1 = Linkage.PoseOf(joint.Body1, poses);
-            JointFrames.At(joint, body0, body1, out frames);
+            joint.FramesAt(body0, body1, out frames);
             int count = joint.PrepareLocked(frames, body0.Position, body1.Position, _rows);
             Vector3d slide = Vector3d.Zero;
             Vector3d turn = Vector3d.Zero;

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
 
+from ...diagnostics import Report
 from ...model import RX, Coupling, Joint, Scene, Term
 from ..assembly.assemble import Assembly
 from ..joints.links import Link
@@ -13,7 +14,7 @@ from .stated import by_pair_of
 
 
 def on_links(
-    assembly: Assembly, links: Sequence[Link], couplings: Sequence[Coupling], scene: Scene
+    assembly: Assembly, links: Sequence[Link], couplings: Sequence[Coupling], scene: Scene, report: Report
 ) -> list[Coupling]:
     """The couplings, each counted from the joints that are left, where these have the same coordinate.  scene: at the closed pose."""
     by_id = {link.joint.id: link for link in links}
@@ -23,9 +24,23 @@ def on_links(
     for coupling in couplings:
         ends = [Term(coupling.joint, coupling.freedom, -1.0), *coupling.terms]
         on = [_on_a_link(assembly, by_id, by_pair, stated, end, scene) for end in ends]
-        changed = on != ends and all(end.joint in by_id for end in on)
-        found.append(counted_from(coupling, on, by_id, scene) if changed else coupling)
+        if on == ends or not all(end.joint in by_id for end in on):
+            found.append(coupling)
+        elif len(summed := _summed(on)) > 1:
+            found.append(counted_from(coupling, summed, by_id, scene))
+        else:  # of one coordinate: it holds that one, or says nothing
+            told = {"coupling": coupling.id, "joints": ", ".join(sorted(coupling.joints))}
+            report.kept(f"coupling {coupling.id}", coupling.where, "COUPLING_HELD", **told)
     return found
+
+
+def _summed(ends: Sequence[Term]) -> list[Term]:
+    """The ends with those of one coordinate added up, without what cancels."""
+    sums: dict[tuple[str, int], float] = {}
+    for end in ends:
+        slot = (end.joint, end.freedom)
+        sums[slot] = sums.get(slot, 0.0) + end.ratio
+    return [Term(*slot, ratio) for slot, ratio in sums.items() if ratio]
 
 
 def _on_a_link(

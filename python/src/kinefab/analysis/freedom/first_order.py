@@ -107,8 +107,9 @@ def large_null_space(
     if len(loops) > free.shape[1]:
         loops = np.linalg.qr(loops, mode="r")
     _, s, vt = np.linalg.svd(loops, full_matrices=False)
-    rank, gap = rank_of(s)
-    moving = _without(free, vt[: int(rank)])
+    # beside the tree's rows, of length 1: where all of the loops repeat these, the largest singular value is a rounding too
+    rank, gap = rank_of(np.concatenate([[max(1.0, s.max(initial=0.0))], s]))
+    moving = _without(free, vt[: int(rank) - 1])
     return width - moving.shape[1], moving, float(gap)
 
 

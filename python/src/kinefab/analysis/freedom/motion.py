@@ -29,6 +29,8 @@ DIRECTION = 0.05
 """Share of its length that a step must keep to count as a motion of its own."""
 WHOLE = 0.9
 """Share above which nothing is in doubt: a motion keeps all of itself, but for its curvature."""
+HALF = 0.5
+"""Share above which it counts where it stays in doubt: a motion keeps all of itself, what is obstructed less each time."""
 MOST_DIRECTIONS = 12
 """Directions tried at the start pose itself; beyond, the tangent is the one found some steps away."""
 MOST_WORK = 1_000
@@ -212,6 +214,10 @@ def _searched(solver: Solver, part: int, first_order: BlockFreedom) -> FiniteFre
     if first_order.mobility > MOST_DIRECTIONS:
         return FiniteFreedom(tangent.shape[1], tangent, True)
     here = _survivors(solver, part, first_order, start)
+    if here.shape[1] > tangent.shape[1]:  # the way led onto a smaller branch, or several branches meet here
+        away = walked(solver, part, first_order, start, seed=6)
+        other = _beyond_doubt(solver, part, block_freedoms(solver, away)[part], away)
+        tangent = other if other.shape[1] > tangent.shape[1] else tangent
     return FiniteFreedom(tangent.shape[1], here if here.shape[1] == tangent.shape[1] else tangent, True)
 
 
@@ -222,8 +228,10 @@ def _beyond_doubt(solver: Solver, part: int, freedom: BlockFreedom, state: State
         if not freedom.mobility:
             break
         ways, share = _kept(solver, part, freedom, state, STEP)
-        if further == MOST_FURTHER - 1 or not np.any((share > DIRECTION) & (share < WHOLE)):
+        if not np.any((share > DIRECTION) & (share < WHOLE)):
             return ways[:, share > DIRECTION]
+        if further == MOST_FURTHER - 1:
+            return ways[:, share > HALF]
         state, there = _further(solver, part, freedom, state)
         freedom = there[part]
     return np.zeros((6 * len(freedom.bodies), 0))

@@ -69,7 +69,7 @@ def unheld(kind: type[Noun], entry: Entry) -> Iterator[str]:
     hints = _hints(kind)
     for key, value in entry.items():
         inner = _noun_in(hints.get(key))
-        if key not in hints and key != "type":
+        if key not in hints and key not in ("type", "extras"):  # which stay with the document
             yield key
         elif inner is not None and isinstance(value, Mapping):
             yield from (f"{key}.{name}" for name in unheld(inner, cast(Entry, value)))

@@ -41,6 +41,7 @@ from ..joints.passive import with_passive_drives
 from ..mapping import GROUND_ID
 from ..scene import ArticulationBody, Collider, GameObject, Material, Mesh, MeshFilter, MeshRenderer, Rigidbody, UnityScene
 from ..scene.joints.configurable_joint import APART
+from .extras import Way, extras_in
 from .pairs import pairs_apart
 from .restored import Restored, restored
 from .scene_file import read_buffers, read_scene_file, unsound_as_finding
@@ -54,10 +55,12 @@ _REPEATS = {word: repeat for repeat, word in WRAP.items()}
 
 @dataclass(slots=True, eq=False)
 class WrittenScene(Scene):
-    """written: the same in Unity's terms, as it stands in the file.  path: the file's name."""
+    """written: the same in Unity's terms, as it stands in the file.  path: the file's name.  extras_at: what other programs have
+    written into its objects, by the way to each."""
 
     written: UnityScene = field(default_factory=UnityScene)
     path: str = ""
+    extras_at: Mapping[Way, Mapping[str, Any]] = field(default_factory=dict[Way, Mapping[str, Any]])
 
     def as_written(self, links: bool, options: ExportOptions, report: Report) -> UnityScene | None:
         """What is in the file, where nothing is asked for that it was not made with; None where it is to be made anew.
@@ -99,7 +102,7 @@ def read(path: Path, report: Report, request: object) -> WrittenScene:
     with unsound_as_finding(path):
         scene = unity_scene(document, read_buffers(path, document), report)
         made = _Nodes(document, scene).scene()
-    made.path = path.name
+    made.path, made.extras_at = path.name, dict(extras_in(document))
     for entry in document.get("report", ()):
         report.outcomes.append(_outcome(entry))
     return made

@@ -70,11 +70,77 @@ public sealed class DynamicsAlgorithmTests
         var random = new Random(7);
         for (int i = 0; i < 100; i++)
         {
-            SpatialMatrix inertia = SpatialMatrix.Inertia(RandomTree.Between(random, 0.1, 5), new Vector3d(0.2, 0.3, 0.4), TreeKinematics.Turn(RandomTree.Vector(random, 2))).From(RandomTree.Vector(random, 1))
-                + SpatialMatrix.Inertia(1, new Vector3d(0.1, 0.1, 0.1), Quaterniond.Identity);
+            SpatialMatrix inertia = SpatialMatrix.Inertia(RandomTree.Between(random, 0.1, 5), new Vector3d(0.2, 0.3, 0.4), TreeKinematics.Turn(RandomTree.Vector(random, 2))).From(RandomTree.Vector(random, 1));
+            inertia.AddFrom(SpatialMatrix.Inertia(1, new Vector3d(0.1, 0.1, 0.1), Quaterniond.Identity), RandomTree.Vector(random, 1));
             var motion = new Twist(RandomTree.Vector(random, 1), RandomTree.Vector(random, 1));
             Twist back = inertia.Response().Times(inertia.Times(motion));
             Assert.That((back.Angular - motion.Angular).Length + (back.Linear - motion.Linear).Length, Is.LessThan(1e-12));
+        }
+    }
+
+    /// <summary>Few freedoms are swept by a matrix, many (and with other joints on the links) through the tree: the same numbers but for rounding.</summary>
+    [TestCase(true)]
+    [TestCase(false)]
+    public void Sweeps_ByTheMatrixAndThroughTheTree_Agree(bool isPhysX5)
+    {
+        ArticulationRules rules = isPhysX5 ? ArticulationRules.PhysX5 : ArticulationRules.PhysX4;
+        int compared = 0;
+        double worst = 0;
+        for (int seed = 0; seed < 300; seed++)
+        {
+            var byMatrix = new ArticulationSolver(WithRows(seed), rules);
+            var throughTree = new ArticulationSolver(WithRows(seed), rules);
+            if (byMatrix.Tree.Freedoms is 0 or > JointSpaceResponse.MostFreedoms)
+                continue;
+            compared++;
+            for (int step = 0; step < 3; step++)
+            {
+                Step(byMatrix, false);
+                Step(throughTree, true);
+            }
+
+            for (int i = 0; i < byMatrix.Tree.Count; i++)
+            {
+                double scale = 1 + throughTree.Tree.Motions[i].Linear.Length + throughTree.Tree.Motions[i].Angular.Length;
+                worst = Math.Max(worst, (byMatrix.Tree.Poses[i].Position - throughTree.Tree.Poses[i].Position).Length / scale);
+                worst = Math.Max(worst, (byMatrix.Tree.Motions[i].Angular - throughTree.Tree.Motions[i].Angular).Length / scale);
+            }
+        }
+
+        Assert.That(compared, Is.GreaterThan(150));
+        Assert.That(worst, Is.LessThan(1e-9));
+
+        static ArticulationTree WithRows(int seed)
+        {
+            ArticulationTree tree = RandomTree.Make(seed, 9);
+            var random = new Random(seed);
+            for (int i = 1; i < tree.Count; i++)
+            {
+                tree.Links[i].Friction = random.Next(3) == 0 ? 0.1 : 0;
+                tree.Links[i].MaxJointSpeed = random.Next(4) == 0 ? 2 : 100;
+                foreach (ref LinkAxis axis in tree.Links[i].Axes.AsSpan())
+                {
+                    axis.Stiffness = random.Next(2) * 200;
+                    axis.Damping = random.Next(2) * 5;
+                    axis.ForceLimit = random.Next(2) == 0 ? 20 : double.PositiveInfinity;
+                    axis.Target = 0.4;
+                    (axis.Lower, axis.Upper) = (-0.7, 0.8);
+                    if (axis.Motion == LinkMotion.Free && random.Next(3) == 0)
+                        axis.Motion = LinkMotion.Limited;
+                }
+            }
+
+            return tree;
+        }
+
+        static void Step(ArticulationSolver solver, bool hasJoints)
+        {
+            solver.Begin(Gravity, 0.005, hasJoints);
+            for (int i = 0; i < 6; i++)
+                solver.Sweep(isVelocityIteration: false);
+            solver.EndPositionIterations();
+            solver.Sweep(isVelocityIteration: true);
+            solver.Finish();
         }
     }
 

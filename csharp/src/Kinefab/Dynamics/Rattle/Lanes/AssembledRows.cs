@@ -107,7 +107,7 @@ internal static class AssembledRows<V>
             }
             else if (block.ScalarCount > 0)
             {
-                JointFrames.FinishTwist(block.Joint!, PoseOf(batch, block.Bodies[0]), PoseOf(batch, block.Bodies[1]));
+                block.Joint!.FinishTwist(PoseOf(batch, block.Bodies[0]), PoseOf(batch, block.Bodies[1]));
             }
         }
     }

@@ -34,8 +34,11 @@ internal static class Reactions<V>
                     AddLimits(batch, batch.ActiveSet, n, 1 / dt, ref force, ref torque);
                 }
 
-                mechanism.Reactions[index] = new JointReaction { Force = force, Torque = torque };
+                // The anchors of a slide stand apart: it is the one in actor 1 that counts.
                 JointModel joint = mechanism.Joints[index];
+                Vector3d gap = mechanism.Bodies.PoseOf(joint.Body1).Point(joint.Frame1.Position) - mechanism.Bodies.PoseOf(joint.Body0).Point(joint.Frame0.Position);
+                torque -= Vector3d.Cross(gap, force);
+                mechanism.Reactions[index] = new JointReaction { Force = force, Torque = torque };
                 if (force.LengthSquared > joint.BreakForce * joint.BreakForce || torque.LengthSquared > joint.BreakTorque * joint.BreakTorque)
                 {
                     joint.IsBroken = true;
@@ -44,7 +47,7 @@ internal static class Reactions<V>
         }
     }
 
-    // Force and torque about the anchor of the rigid rows, as they act on body 0. An anchor's own rows have no torque there.
+    // Force and torque about the anchor in actor 0 of the rigid rows, as they act on body 0. An anchor's own rows have no torque there.
     [MethodImpl(MethodImplOptions.NoInlining)]
     private static void Sum(LaneBatch<V> batch, int n, RowBlock block, double rate)
     {

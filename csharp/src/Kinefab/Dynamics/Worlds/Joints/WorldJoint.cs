@@ -49,12 +49,12 @@ public abstract class WorldJoint
     public bool IsBroken => Solved.IsBroken;
 
     /// <summary>
-    /// Force of the constraint on actor 0 (the own body unless swapBodies) in the last step, N; drives do not count. In the
-    /// step that breaks the joint the force that broke it, then none.
+    /// Force of the constraint on actor 0 (the own body unless swapBodies; of a link's joint the link above) in the last step, N, world axes;
+    /// drives and a link's joint friction do not count. In the step that breaks the joint the force that broke it, then none.
     /// </summary>
     public Vector3d CurrentForce => MultibodySystem.Reactions[Index].Force;
 
-    /// <summary>Torque of the constraint on actor 0 about the connected anchor in the last step, N m; drives do not count.</summary>
+    /// <summary>Torque of the constraint on actor 0 about the connected anchor (of a link's joint its own) in the last step, N m, world axes; drives do not count.</summary>
     public Vector3d CurrentTorque => MultibodySystem.Reactions[Index].Torque;
 
     /// <summary>How far the joint's locked freedoms have come apart.</summary>

@@ -25,6 +25,7 @@ public sealed class WorldLinkJoint : WorldJoint
         _articulated = articulated;
         _body = definition.Own;
         _settings = definition.Link!;
+        SetTwistGoal();
     }
 
     /// <summary>
@@ -50,6 +51,7 @@ public sealed class WorldLinkJoint : WorldJoint
             _settings = value;
             _joint.Settings = LinkJoint.Of(value, _joint.Settings.ConnectedBody!.Value);
             ArticulationModel.Apply(value, Link);
+            SetTwistGoal();
         }
     }
 
@@ -146,6 +148,7 @@ public sealed class WorldLinkJoint : WorldJoint
         (axis.Stiffness, axis.Damping, axis.ForceLimit, axis.IsAcceleration) = (drive.Stiffness, drive.Damping, drive.ForceLimit, drive.IsAcceleration);
         axis.Target = target / Unit;
         axis.TargetSpeed = 0;
+        SetTwistGoal();
     }
 
     /// <inheritdoc/>
@@ -172,6 +175,13 @@ public sealed class WorldLinkJoint : WorldJoint
 
     // Degrees a radian, or 1.
     private double Unit => _settings.JointType == ArticulationJointType.Prismatic ? 1 : Degrees;
+
+    // Hinges are driven by their angle in either solver.
+    private void SetTwistGoal()
+    {
+        if (_settings.JointType == ArticulationJointType.Revolute)
+            ((D6Joint)Solved).DriveTwistAngle = Link.Axes[0].Target;
+    }
 
     private int Freedom(Coordinate coordinate)
     {

@@ -1,7 +1,8 @@
 using System;
+using Kinefab.Dynamics.Articulations;
 using Kinefab.Numerics;
 
-namespace Kinefab.Dynamics.Articulations;
+namespace Kinefab.Tests.Dynamics.Articulations;
 
 /// <summary>
 /// The recursive Newton-Euler algorithm: forces of the joints from their accelerations. Independent of <see cref="ForwardDynamics"/> but for the

@@ -1,7 +1,6 @@
 using System.Runtime.CompilerServices;
-using Kinefab.Numerics;
 
-namespace Kinefab.Dynamics.Articulations;
+namespace Kinefab.Numerics;
 
 /// <summary>
 /// A symmetric 6 x 6 matrix in blocks of 3 x 3, [A B; B^T C], each by its columns. As an inertia it makes the wrench (force, torque) of the
@@ -17,7 +16,12 @@ internal struct SpatialMatrix
     /// <summary>A link by itself: m about its centre of mass, R diag(moments) R^T.</summary>
     public static SpatialMatrix Inertia(double mass, Vector3d moments, Quaterniond q)
     {
-        Vector3d x = q * Vector3d.UnitX, y = q * Vector3d.UnitY, z = q * Vector3d.UnitZ;
+        double xx = 2 * q.X * q.X, yy = 2 * q.Y * q.Y, zz = 2 * q.Z * q.Z;
+        double xy = 2 * q.X * q.Y, xz = 2 * q.X * q.Z, yz = 2 * q.Y * q.Z;
+        double wx = 2 * q.W * q.X, wy = 2 * q.W * q.Y, wz = 2 * q.W * q.Z;
+        var x = new Vector3d(1 - (yy + zz), xy + wz, xz - wy);
+        var y = new Vector3d(xy - wz, 1 - (xx + zz), yz + wx);
+        var z = new Vector3d(xz + wy, yz - wx, 1 - (xx + yy));
         Vector3d u = x * moments.X, v = y * moments.Y, w = z * moments.Z;
         return new SpatialMatrix
         {
@@ -45,16 +49,28 @@ internal struct SpatialMatrix
     /// <summary>An inertia of the point r away from where it shall be seen, there.</summary>
     public readonly SpatialMatrix From(Vector3d r)
     {
+        SpatialMatrix sum = default;
+        sum.AddFrom(this, r);
+        return sum;
+    }
+
+    /// <summary>Plus an inertia of the point r away from this one's.</summary>
+    public void AddFrom(in SpatialMatrix m, Vector3d r)
+    {
         // [A, B - A r~; ., C + r~ B' + (r~ B)^T] with B' = B - A r~; column i of A r~ is A (r x e_i).
-        var m = new SpatialMatrix { _a0 = _a0, _a1 = _a1, _a2 = _a2 };
-        m._b0 = _b0 - (_a1 * r.Z - _a2 * r.Y);
-        m._b1 = _b1 - (_a2 * r.X - _a0 * r.Z);
-        m._b2 = _b2 - (_a0 * r.Y - _a1 * r.X);
-        Vector3d p0 = Vector3d.Cross(r, _b0), p1 = Vector3d.Cross(r, _b1), p2 = Vector3d.Cross(r, _b2);
-        m._c0 = _c0 + Vector3d.Cross(r, m._b0) + new Vector3d(p0.X, p1.X, p2.X);
-        m._c1 = _c1 + Vector3d.Cross(r, m._b1) + new Vector3d(p0.Y, p1.Y, p2.Y);
-        m._c2 = _c2 + Vector3d.Cross(r, m._b2) + new Vector3d(p0.Z, p1.Z, p2.Z);
-        return m;
+        Vector3d b0 = m._b0 - (m._a1 * r.Z - m._a2 * r.Y);
+        Vector3d b1 = m._b1 - (m._a2 * r.X - m._a0 * r.Z);
+        Vector3d b2 = m._b2 - (m._a0 * r.Y - m._a1 * r.X);
+        Vector3d p0 = Vector3d.Cross(r, m._b0), p1 = Vector3d.Cross(r, m._b1), p2 = Vector3d.Cross(r, m._b2);
+        _a0 += m._a0;
+        _a1 += m._a1;
+        _a2 += m._a2;
+        _b0 += b0;
+        _b1 += b1;
+        _b2 += b2;
+        _c0 += m._c0 + Vector3d.Cross(r, b0) + new Vector3d(p0.X, p1.X, p2.X);
+        _c1 += m._c1 + Vector3d.Cross(r, b1) + new Vector3d(p0.Y, p1.Y, p2.Y);
+        _c2 += m._c2 + Vector3d.Cross(r, b2) + new Vector3d(p0.Z, p1.Z, p2.Z);
     }
 
     /// <summary>Less u u^T s, of an inertia.</summary>
@@ -73,13 +89,6 @@ internal struct SpatialMatrix
         AddOuter(u.Angular, u.Linear, v.Angular, v.Linear);
         AddOuter(v.Angular, v.Linear, u.Angular, u.Linear);
     }
-
-    public static SpatialMatrix operator +(in SpatialMatrix a, in SpatialMatrix b) => new()
-    {
-        _a0 = a._a0 + b._a0, _a1 = a._a1 + b._a1, _a2 = a._a2 + b._a2,
-        _b0 = a._b0 + b._b0, _b1 = a._b1 + b._b1, _b2 = a._b2 + b._b2,
-        _c0 = a._c0 + b._c0, _c1 = a._c1 + b._c1, _c2 = a._c2 + b._c2,
-    };
 
     /// <summary>The response of an inertia: its inverse, in the other order of blocks. Zero where it has none.</summary>
     public readonly SpatialMatrix Response()
@@ -121,7 +130,8 @@ internal struct SpatialMatrix
         return inverse > 0;
     }
 
-    private void AddOuter(Vector3d first, Vector3d second, Vector3d firstT, Vector3d secondT)
+    [MethodImpl(MethodImplOptions.AggressiveInlining)]
+    private void AddOuter(in Vector3d first, in Vector3d second, in Vector3d firstT, in Vector3d secondT)
     {
         _a0 += first * firstT.X;
         _a1 += first * firstT.Y;

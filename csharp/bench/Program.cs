@@ -4,7 +4,7 @@ using System.Linq;
 
 namespace Kinefab.Bench;
 
-/// <summary>dotnet run -c Release --project csharp/bench -- drive|load|start|mobility|solver|articulation|peers|all [--write]</summary>
+/// <summary>dotnet run -c Release --project csharp/bench -- drive|load|start|mobility|solver|articulation|package|peers|all [--write]</summary>
 internal static class Program
 {
     private static readonly Dictionary<string, Func<string>> Benchmarks = new()
@@ -15,6 +15,7 @@ internal static class Program
         ["mobility"] = Tables.Mobility,
         ["solver"] = Tables.Solver,
         ["articulation"] = Tables.Articulation,
+        ["package"] = Tables.Package,
         ["peers"] = Tables.Peers,
     };
 

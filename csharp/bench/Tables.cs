@@ -65,6 +65,8 @@ internal static class Tables
 
     internal static string Articulation() => Written(ArticulationBenchmark.Run);
 
+    internal static string Package() => Written(PackageBenchmark.Run);
+
     internal static string Peers() => Written(PeerBenchmark.Run);
 
     private static string Written(Action run)

@@ -64,13 +64,16 @@ def gripper() -> kinefab.Scene:
         collider="none",
         color=BRASS,
     )
-    turning = scene.add_hinge(palm, spindle, point=(0, 0.03, 0), axis=(1, 0, 0), limits=(-720, 360), name="Spindle")
+    turning = scene.add_hinge(palm, spindle, point=(0, 0.03, 0), axis=(1, 0, 0), name="Spindle")
     jaws: list[kinefab.Joint] = []
     for name, side in (("Left jaw", -1), ("Right jaw", 1)):
         jaw = scene.add_part(
             name, box(0.02, 0.1, 0.03), translation=(0.05 * side, 0.08, 0), density=ALUMINIUM, color=BLUE
         )
-        jaws.append(scene.add_slider(palm, jaw, point=(0.05 * side, 0.03, 0), axis=(1, 0, 0), name=name))
+        # The left jaw's stops are both jaws' and the spindle's: three turns from end to end.
+        stops = (-0.02, 0.04) if side < 0 else None
+        point = (0.05 * side, 0.03, 0)
+        jaws.append(scene.add_slider(palm, jaw, point=point, axis=(1, 0, 0), limits=stops, name=name))
     scene.add_coupling(turning, jaws[0], ratio=-0.02 / 360, name="Left nut")
     scene.add_coupling(jaws[0], jaws[1], ratio=-1, name="Right nut")
     return scene

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import random
 import xml.etree.ElementTree as xml
 from dataclasses import replace
 from itertools import combinations
@@ -11,6 +12,7 @@ from pathlib import Path
 import kinefab
 import numpy as np
 import pytest
+import trimesh
 from kinefab.diagnostics import Report
 from kinefab.model import AnimationClip, Constraint, Coupling, Joint, Node, NodeKind
 from kinefab.pipeline import prepared
@@ -197,3 +199,34 @@ def test_of_two_machines_neither_passes_the_other(source: Path, tmp_path: Path):
         pytest.skip(f"the fixture shows a fault: {error}")
     copied = {frozenset(COPY + name for name in pair) for pair in alone}
     assert passing(exported(twice(scene), tmp_path), parts) == alone | copied
+
+
+@pytest.mark.parametrize("seed", range(30))
+def test_random_machines_pass_their_own_bases_alone(seed: int, tmp_path: Path):
+    """Trees of boxes on bases of one or several parts; a joint's two rigid groups pass through each other, and no others."""
+    draw = random.Random(seed)
+    scene, box, count = kinefab.Scene(), trimesh.creation.box((0.1, 0.1, 0.1)), draw.randint(3, 9)
+    stands, groups, hinged = list[bool](), list(range(count)), list[tuple[int, int]]()
+    for i in range(count):
+        stands.append(draw.random() < 0.45)
+        at = tuple(draw.uniform(-9, 9) for _ in range(3))
+        scene.add_part(f"p{i}", box, translation=at, grounded=stands[i], mass=None if stands[i] else 1.0)
+        other = draw.randrange(i) if i else None
+        if other is None or stands[i]:
+            continue
+        if draw.random() < 0.3:
+            scene.add_fixed(other, i)
+            groups[i], stands[i] = groups[other], stands[other]
+        elif draw.random() < 0.15:
+            scene.add_hinge(None, i, point=(draw.uniform(-1, 1), 0, 0), axis=(0, 0, 1))
+        else:
+            scene.add_hinge(other, i, point=(draw.uniform(-1, 1), 0, 0), axis=(0, 0, 1))
+            hinged.append((other, i))
+    written = exported(scene, tmp_path)
+    expected = {
+        frozenset((f"p{a}", f"p{b}"))
+        for a, b in combinations(range(count), 2)
+        if groups[a] != groups[b] and not (stands[a] and stands[b])
+        if {groups[a], groups[b]} in [{groups[one], groups[other]} for one, other in hinged]
+    }
+    assert passing(written, {f"p{i}" for i in range(count)}) == expected

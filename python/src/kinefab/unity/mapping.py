@@ -263,7 +263,7 @@ class _Builder:
                     at = self.objects[at].parent
                 if at is not None:
                     touched.add(node_of[at])
-        self.standing = find_standing(self.scene, self.groups, touched)
+        self.standing = find_standing(self.scene, self.groups, self.parents, touched)
         for holder in dict.fromkeys(self.standing.holder):
             own = None if holder is None else self.components[self.object_of[holder]]
             if own is not None and not any(isinstance(c, Rigidbody) for c in own):

@@ -58,11 +58,12 @@ internal static class MeshComparison
 /// <summary>A physics material of the package against one of Unity's files.</summary>
 internal static class PhysicsMaterialComparison
 {
+    private static readonly string[] Fields = ["dynamicFriction", "staticFriction", "bounciness", "frictionCombine", "bounceCombine"];
+
     public static void Same(string path, Unity.PhysicsMaterial to, string at)
     {
         PrefabFile.Record from = PrefabFile.Read(path).Documents.Values.Single();
-        double[] expected = [.. new[] { "dynamicFriction", "staticFriction", "bounciness", "frictionCombine", "bounceCombine" }
-            .Select(f => double.Parse(from.Fields.GetValueOrDefault(f) ?? from[$"m_{char.ToUpperInvariant(f[0])}{f[1..]}"], CultureInfo.InvariantCulture))];
+        double[] expected = [.. Fields.Select(f => double.Parse(from.Fields.GetValueOrDefault(f) ?? from[$"m_{char.ToUpperInvariant(f[0])}{f[1..]}"], CultureInfo.InvariantCulture))];
         Assert.That(new double[] { to.dynamicFriction, to.staticFriction, to.bounciness, (int)to.frictionCombine, (int)to.bounceCombine }, Is.EqualTo(expected).Within(1e-6), at);
     }
 }

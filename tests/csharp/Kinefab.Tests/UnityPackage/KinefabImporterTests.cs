@@ -100,6 +100,30 @@ public sealed class KinefabImporterTests
         Assert.That(References(ImportedAsset.Of(scene.Scene)), Is.EquivalentTo(first));
     }
 
+    // So that no name can clash with another asset's.
+    [Test]
+    public void Import_WritesNothingBesideItself()
+    {
+        using var scene = new EditedScene();
+        string[] before = [.. Directory.GetFileSystemEntries(scene.Folder, "*", SearchOption.AllDirectories).Order(StringComparer.Ordinal)];
+        string[] assets = [.. AssetDatabase.Assets.Keys.Order(StringComparer.Ordinal)];
+        ImportedAsset asset = ImportedAsset.Of(scene.Scene);
+        Assert.That(asset.Context.Errors, Is.Empty);
+        Assert.That(Directory.GetFileSystemEntries(scene.Folder, "*", SearchOption.AllDirectories).Order(StringComparer.Ordinal), Is.EqualTo(before));
+        Assert.That(AssetDatabase.Assets.Keys.Order(StringComparer.Ordinal), Is.EqualTo(assets));
+
+        // What is called as the file's own objects and assets are is another identifier.
+        scene.Save(json =>
+        {
+            foreach (JsonNode? material in json["materials"]!.AsArray())
+                material!["name"] = "root";
+            scene.Objects[0]!["name"] = "Mechanism";
+        });
+        ImportedAsset alike = ImportedAsset.Of(scene.Scene);
+        Assert.That(alike.Context.Errors, Is.Empty);
+        Assert.That(alike.Identifiers("materials").Distinct().Count(), Is.EqualTo(asset.Identifiers("materials").Count()));
+    }
+
     private static IEnumerable<string> Broken() => Directory.GetFiles(Invalid, "*.kinefab", SearchOption.AllDirectories)
         .Where(path => !path.Contains($"{Path.DirectorySeparatorChar}source{Path.DirectorySeparatorChar}", StringComparison.Ordinal))
         .Select(path => Path.GetRelativePath(Invalid, path)).Order(StringComparer.Ordinal);

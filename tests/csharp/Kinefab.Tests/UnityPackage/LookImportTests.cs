@@ -15,16 +15,26 @@ public sealed class LookImportTests
 {
     private const string Textured = "../tests/conformance/valid/look/textured.kinefab";
 
+    private static readonly string[] Uses =
+    [
+        "textures/tiles.png|color|clamp", "textures/tiles.png|color|repeat", "textures/bumps.png|normal|mirror", "textures/Tiles|mask|bumps.png|repeat",
+    ];
+
+    private static readonly string[] OfTiles = ["color texture of material Tiles", "emission texture of material Tiles"];
+
+    private static readonly string[] OfStandard =
+    [
+        "doubleSided of material Tiles", "uvSet of color texture of material Tiles", "rotation of color texture of material Tiles",
+        "its own scale and offset of normal texture of material Tiles", "the colours of vertices of mesh triangle",
+    ];
+
     [Test]
     public void Textures_AreSubAssetsOneForEachUse()
     {
         using var scene = new EditedScene(Textured);
         ImportedAsset asset = ImportedAsset.Of(scene.Scene);
         Assert.That(asset.Context.Errors, Is.Empty);
-        Assert.That(asset.Identifiers("textures"), Is.EquivalentTo(new[]
-        {
-            "textures/tiles.png|color|clamp", "textures/tiles.png|color|repeat", "textures/bumps.png|normal|mirror", "textures/Tiles|mask|bumps.png|repeat",
-        }));
+        Assert.That(asset.Identifiers("textures"), Is.EquivalentTo(Uses));
         Assert.That(Texture(asset, "tiles.png|color|clamp").IsLinear, Is.False);
         Assert.That(Texture(asset, "bumps.png|normal|mirror").IsLinear, Is.True);
     }
@@ -77,7 +87,7 @@ public sealed class LookImportTests
         using var scene = new EditedScene(Textured);
         scene.Save(json => json["images"]![0]!["byteLength"] = 20);
         ImportedAsset asset = ImportedAsset.Of(scene.Scene);
-        Assert.That(asset.Source.Findings.Where(f => f.code == "TEXTURE_NOT_WRITTEN").Select(f => f.place), Is.EquivalentTo(new[] { "color texture of material Tiles", "emission texture of material Tiles" }));
+        Assert.That(asset.Source.Findings.Where(f => f.code == "TEXTURE_NOT_WRITTEN").Select(f => f.place), Is.EquivalentTo(OfTiles));
         Assert.That(asset.Identifiers("materials"), Has.Exactly(1).Items);
         Assert.That(asset.Context.Objects.Values.OfType<Unity.Material>().Single().GetTexture("_BumpMap"), Is.Not.Null);
         Assert.That(asset.Context.Objects.Values.OfType<Unity.Texture2D>().Count(), Is.EqualTo(2), "none of what is not there");
@@ -95,11 +105,7 @@ public sealed class LookImportTests
     {
         using var scene = new EditedScene(Textured);
         string[] told = [.. ImportedAsset.Of(scene.Scene).Source.Findings.Where(f => f.code == "TARGET_FIELD_DROPPED").Select(f => f.place)];
-        Assert.That(told, Is.SupersetOf(new[]
-        {
-            "doubleSided of material Tiles", "uvSet of color texture of material Tiles", "rotation of color texture of material Tiles",
-            "its own scale and offset of normal texture of material Tiles", "the colours of vertices of mesh triangle",
-        }));
+        Assert.That(told, Is.SupersetOf(OfStandard));
         using RenderPipelines hdrp = RenderPipelines.Use("hdrp");
         string[] less = [.. ImportedAsset.Of(scene.Scene).Source.Findings.Where(f => f.code == "TARGET_FIELD_DROPPED").Select(f => f.place)];
         Assert.That(less, Has.None.StartsWith("doubleSided").And.None.Contains("scale and offset of emission"));

@@ -14,6 +14,8 @@ internal static class MaterialComparison
     // Switches at the shader's own default, which the package leaves to the template.
     private static readonly HashSet<string> OfTheTemplate = ["_SpecularHighlights", "_GlossyReflections", "_ReceiveShadows", "_EnvironmentReflections", "_QueueOffset"];
 
+    private static readonly string[] Place = ["m_Scale.x", "m_Scale.y", "m_Offset.x", "m_Offset.y"];
+
     /// <param name="path">Of the .mat file.</param>
     /// <param name="assets">Files by their guids.</param>
     /// <param name="to">What the package made.</param>
@@ -52,7 +54,7 @@ internal static class MaterialComparison
             Unity.Vector2 scale = to.GetTextureScale(map.Key), offset = to.GetTextureOffset(map.Key);
             Assert.That(
                 new double[] { scale.x, scale.y, offset.x, offset.y },
-                Is.EqualTo(new[] { "m_Scale.x", "m_Scale.y", "m_Offset.x", "m_Offset.y" }.Select(p => Number(parts[p]))).Within(1e-6),
+                Is.EqualTo(Place.Select(p => Number(parts[p]))).Within(1e-6),
                 $"{at} {map.Key}");
             compared += 5;
         }

@@ -109,6 +109,9 @@ namespace UnityEngine
     /// <summary>Unity's messages: methods of any access, found by name.</summary>
     internal static class Calls
     {
+        // BindingFlags.DoNotWrapExceptions, which netstandard2.0 has no name for.
+        private const BindingFlags Unwrapped = (BindingFlags)0x02000000;
+
         public static void Of(object on, string message)
         {
             for (Type type = on.GetType(); type != null && type != typeof(object); type = type.BaseType)
@@ -116,7 +119,7 @@ namespace UnityEngine
                 MethodInfo method = type.GetMethod(message, BindingFlags.Instance | BindingFlags.Public | BindingFlags.NonPublic | BindingFlags.DeclaredOnly, null, Type.EmptyTypes, null);
                 if (method != null)
                 {
-                    method.Invoke(on, BindingFlags.DoNotWrapExceptions, null, null, null);
+                    method.Invoke(on, Unwrapped, null, null, null);
                     return;
                 }
             }

@@ -167,7 +167,7 @@ namespace UnityEngine
         /// <summary>From linear to sRGB; the opacity stays.</summary>
         public Color gamma => new Color(Gamma(r), Gamma(g), Gamma(b), a);
 
-        private static float Gamma(float c) => c <= 0.0031308f ? 12.92f * c : 1.055f * MathF.Pow(c, 1 / 2.4f) - 0.055f;
+        private static float Gamma(float c) => c <= 0.0031308f ? 12.92f * c : 1.055f * (float)Math.Pow(c, 1 / 2.4) - 0.055f;
     }
 
     /// <summary>By rows and columns, m23 the last of the third row.</summary>

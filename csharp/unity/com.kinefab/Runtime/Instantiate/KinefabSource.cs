@@ -55,7 +55,7 @@ namespace KinefabUnity
 
             int length = System.BitConverter.ToInt32(file, Head);
             bool isWhole = length >= 0 && length <= file.Length - Head - ChunkHead;
-            return isWhole ? new System.ArraySegment<byte>(file, Head + ChunkHead, length).ToArray() : file;
+            return isWhole ? new System.ReadOnlySpan<byte>(file, Head + ChunkHead, length).ToArray() : file;
         }
 
         internal void Tell(List<KinefabFinding> found) => findings = found.ToArray();

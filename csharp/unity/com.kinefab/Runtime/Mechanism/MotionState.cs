@@ -101,7 +101,7 @@ namespace KinefabUnity
         {
             State.CopyTo(_numbers);
             var bytes = new byte[8 + 8 * _numbers.Length];
-            BitConverter.TryWriteBytes(bytes, _scene);
+            BitConverter.GetBytes(_scene).CopyTo(bytes, 0);
             Buffer.BlockCopy(_numbers, 0, bytes, 8, 8 * _numbers.Length);
             return Convert.ToBase64String(bytes);
         }

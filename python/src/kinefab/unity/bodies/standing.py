@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection
+from collections.abc import Collection, Sequence
 from dataclasses import dataclass
 
 from ...model import NodeKind, Scene
@@ -20,15 +20,17 @@ class Standing:
     bases: dict[int, tuple[int | None, ...]]
 
 
-def find_standing(scene: Scene, groups: RigidGroups, touched: Collection[int]) -> Standing:
+def find_standing(
+    scene: Scene, groups: RigidGroups, parents: Sequence[int | None], touched: Collection[int]
+) -> Standing:
     """Unity lets nothing collide with the whole Rigidbody that a joint connects it to, so each holds one base alone.
 
-    One base is the ground's own: the largest of which nothing stands in another, where nothing is joined to the world itself.
-    touched: the nodes that have colliders.
+    One base is the ground's own: the largest that stands on nothing else, where nothing is joined to the world itself.
+    parents: what each node's object stands below.  touched: the nodes that have colliders.
     """
     named, to_world = _named(scene, groups)
     partners = {groups.standing[node] for node in named}
-    kept = set[int | None]() if to_world else _kept(scene, groups, partners)
+    kept = set[int | None]() if to_world else _kept(groups, parents, partners)
     kept_nodes: list[bool] = []
     holder: list[int | None] = []
     for i, (own, node) in enumerate(zip(groups.standing, scene.nodes)):
@@ -62,17 +64,17 @@ def _named(scene: Scene, groups: RigidGroups) -> tuple[set[int], bool]:
     return found, to_world
 
 
-def _kept(scene: Scene, groups: RigidGroups, partners: Collection[int | None]) -> set[int | None]:
-    """The base that the ground holds, with what stands above it, as a Rigidbody there would take it along; by what each is rigid with."""
+def _kept(
+    groups: RigidGroups, parents: Sequence[int | None], partners: Collection[int | None]
+) -> set[int | None]:
+    """The base that the ground holds, by what it is rigid with; none where all stand on something else that would then be part of it."""
     size: dict[int | None, int] = {}
-    above: dict[int | None, set[int | None]] = {own: {own} for own in partners}
-    for own in groups.standing:
+    on_others: set[int | None] = set()
+    for own, parent in zip(groups.standing, parents):
         size[own] = size.get(own, 0) + 1
-    for own in partners:
-        for i in range(len(scene.nodes) - 1, -1, -1):
-            parent = scene.nodes[i].parent
-            if parent is not None and groups.standing[i] in above[own] and groups.standing[parent] is not None:
-                above[own].add(groups.standing[parent])
-    alone = [own for own in partners if not above[own] & set(partners) - {own}]
+        above = None if parent is None else groups.standing[parent]
+        if above is not None and above != own:
+            on_others.add(own)
+    alone = [own for own in partners if own not in on_others]
     largest = min(alone, key=lambda own: (-size[own], -1 if own is None else own), default=None)
-    return set() if largest is None else above[largest]
+    return set() if largest is None else {largest}

@@ -1,0 +1,75 @@
+using System;
+using System.IO;
+using System.Linq;
+using System.Reflection;
+using System.Runtime.Loader;
+using Microsoft.CodeAnalysis;
+using Microsoft.CodeAnalysis.CSharp;
+using NUnit.Framework;
+
+namespace Kinefab.Tests.UnityPackage;
+
+/// <summary>KinefabDragger by the Input System package: that branch of the sources compiled as a project with it would, and run.</summary>
+public sealed class InputSystemTests
+{
+    // Press on the crank, pull, release; then without a pointer. What there is to see, by a comma each.
+    private const string Play = """
+        using System.Linq;
+        using KinefabUnity;
+        using UnityEngine;
+        using UnityEngine.InputSystem;
+
+        public static class Play
+        {
+            public static string Run(string path)
+            {
+                Player.Play(true);
+                GameObject root = KinefabScene.Instantiate(path, null, new KinefabSettings { physics = KinefabPhysics.None }, new System.Collections.Generic.List<KinefabFinding>());
+                var mechanism = root.GetComponent<KinefabMechanism>();
+                GameObject eye = new GameObject("Eye");
+                Bounds crank = mechanism.MovingParts().Single(part => part.name == "Crank").GetComponentsInChildren<MeshRenderer>()[0].bounds;
+                eye.transform.position = crank.center - new Vector3(0, 0, 1);
+                KinefabDragger dragger = eye.AddComponent<KinefabDragger>();
+                dragger.view = eye.AddComponent<Camera>();
+                Player.Frame(); // no mouse, no pen, no finger
+                string told = Told(dragger, mechanism);
+                var pointer = new Pointer();
+                typeof(Pointer).GetProperty("current").SetValue(null, pointer);
+                (pointer.press.isPressed, pointer.press.wasPressedThisFrame) = (true, true);
+                Player.Frame();
+                told += Told(dragger, mechanism);
+                pointer.press.wasPressedThisFrame = false;
+                pointer.position.Value = new Vector2(0.02f, 0);
+                Player.Frame();
+                told += Told(dragger, mechanism);
+                pointer.press.isPressed = false;
+                Player.Frame();
+                return told + Told(dragger, mechanism);
+            }
+
+            private static string Told(KinefabDragger dragger, KinefabMechanism mechanism) =>
+                (dragger.Part == null ? "-" : dragger.Part.name) + " " + (System.Math.Abs(mechanism.Value("Motor")) > 5 ? "moved" : "still") + ",";
+        }
+        """;
+
+    [TestCase("2021.3")]
+    [TestCase("6000.7")]
+    public void Dragger_ByTheInputSystem_PullsWhatThePointerIsOn(string editor)
+    {
+        CSharpCompilation all = UnityEditors.Compile(editor, isEditor: false, "ENABLE_INPUT_SYSTEM", "KINEFAB_INPUT_SYSTEM");
+        all = all.AddSyntaxTrees(CSharpSyntaxTree.ParseText(Play, (CSharpParseOptions)all.SyntaxTrees[0].Options));
+        using var image = new MemoryStream();
+        Assert.That(all.Emit(image).Diagnostics.Where(d => d.Severity == DiagnosticSeverity.Error).Select(d => d.ToString()), Is.Empty);
+        image.Position = 0;
+        var context = new AssemblyLoadContext($"input of {editor}", isCollectible: true);
+        MethodInfo run = context.LoadFromStream(image).GetType("Play")!.GetMethod("Run")!;
+        string scene = Path.Combine(PlayedMechanism.Fixtures, "..", "csharp", "unity", "com.kinefab", "Samples~", "FourBar", "FourBar.kinefab");
+        Assert.That(run.Invoke(null, [scene]), Is.EqualTo("- still,Crank still,Crank moved,- moved,"));
+        context.Unload();
+    }
+
+    // With neither way of input nothing is read, and nothing fails.
+    [Test]
+    public void Sources_WithoutAnyInput_Compile() =>
+        Assert.That(UnityEditors.Compile("6000.7", isEditor: true).GetDiagnostics().Where(d => d.Severity == DiagnosticSeverity.Error).Select(d => d.ToString()), Is.Empty);
+}

@@ -1,4 +1,5 @@
 using System;
+using System.Collections.Generic;
 using System.Diagnostics;
 using System.Globalization;
 using System.Linq;
@@ -15,6 +16,9 @@ internal static class HubBenchmark
 {
     private const double Dt = 1.0 / 50;
     private const int Runs = 3;
+
+    // After a call of as many ms no larger scene is tried.
+    private const double TooLong = 1500;
     private static readonly int[] Sizes = { 512, 1024, 4096, 16384 };
 
     private static readonly (string Name, Func<SceneDocument, ValidScene, Action> Make)[] Calls =
@@ -35,11 +39,16 @@ internal static class HubBenchmark
             foreach ((string name, Func<SceneDocument, ValidScene, Action> call) in Calls)
             {
                 Time(call(scenes[0].Document, scenes[0].Scene));
-                double[] times = scenes.Select(scene => Time(call(scene.Document, scene.Scene))).ToArray();
-                double exponent = Math.Log(times[^1] / times[0]) / Math.Log((double)Sizes[^1] / Sizes[0]);
-                string cells = string.Join(" | ", times.Select(time => time.ToString("F1", CultureInfo.InvariantCulture)));
+                var times = new List<double>();
+                foreach ((SceneDocument document, ValidScene scene) in scenes)
+                {
+                    if (times.Count == 0 || times[^1] < TooLong)
+                        times.Add(Time(call(document, scene)));
+                }
+
+                double exponent = Math.Log(times[^1] / times[0]) / Math.Log((double)Sizes[times.Count - 1] / Sizes[0]);
+                string cells = string.Join(" | ", Sizes.Select((_, i) => i < times.Count ? times[i].ToString("F1", CultureInfo.InvariantCulture) : "-"));
                 Console.WriteLine(string.Create(CultureInfo.InvariantCulture, $"| {kind} | {name} | {cells} | {exponent:F2} |"));
-                Console.Error.WriteLine(string.Create(CultureInfo.InvariantCulture, $"| {kind} | {name} | {cells} | {exponent:F2} |"));
             }
         }
     }

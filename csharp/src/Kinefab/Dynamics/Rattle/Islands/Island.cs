@@ -102,7 +102,7 @@ internal sealed class Island
             }
         }
 
-        IsWorkless = Array.IndexOf(IsStatic, false, movingBodies) < 0;
+        HasKinematic = Array.IndexOf(IsStatic, false, movingBodies) >= 0;
         RotationSplittings = new RotationSplitting[movingBodies];
         for (int b = 0; b < movingBodies; b++)
         {
@@ -157,8 +157,8 @@ internal sealed class Island
 
     public HubLink[] HubLinks => _hubLinks ??= MakeHubLinks(Pattern);
 
-    /// <summary>Whether nothing but the bodies' own forces does work on them: no scalar row, no kinematic body.</summary>
-    public bool IsWorkless { get; }
+    /// <summary>Whether a body of theirs moves as it is told.</summary>
+    public bool HasKinematic { get; }
 
     /// <summary>Whether there are more joints and couplings than it takes to hang up the bodies, all that does not move being one.</summary>
     public bool HasLoops => Blocks.Length >= MovingBodies + (Bodies.Length > MovingBodies ? 1 : 0);

@@ -6,7 +6,7 @@ namespace Kinefab.Dynamics.Rattle;
 /// <summary>
 /// The last resort, which always finds a motion where one exists: velocities at the start pose that all rows allow (Moreau's and Anitescu's
 /// time stepping: a linear complementarity problem, springs implicit), the drift by them, and the end pose closed by position alone with
-/// its rows built anew in each iteration. Of first order and dissipative; energy that closing the pose gave is taken from the speeds.
+/// its rows built anew in each iteration. Of first order and dissipative but for what closing the pose gives.
 /// Sources: Moreau 1988; Anitescu and Potra 1997.
 /// </summary>
 internal sealed class ProjectedStep
@@ -27,8 +27,6 @@ internal sealed class ProjectedStep
     {
         LaneBatch<ScalarLane> batch = _batch;
         ActiveSet<ScalarLane>? scalars = batch.ActiveSet;
-        bool isKnown = EnergyAudit.IsKnown(batch);
-        EnergyAudit before = isKnown ? new EnergyAudit(batch, h, tolerance) : default;
         batch.Work.Active[0] = 1;
         batch.CompliantStep = 0;
         scalars?.Begin(h, tolerance, true);
@@ -52,11 +50,6 @@ internal sealed class ProjectedStep
 
         RattleStep<ScalarLane>.Build(batch);
         VelocityProjection<ScalarLane>.Rest(batch, tolerance, _exact);
-        if (isKnown)
-        {
-            new EnergyAudit(batch, h, tolerance).Dampen(batch, before);
-        }
-
         return true;
     }
 

@@ -149,10 +149,11 @@ internal sealed class StepController
         {
             _start.Restore(_batch);
             _part.Begin(dt);
+            bool wasEager = _part.IsEager;
+            _part.IsEager = true;
             if (!hasSettled)
             {
                 hasSettled = true;
-                _part.IsEager = true;
                 CloseInitialState(isMoved);
                 _start.Save(_batch);
                 Audit(dt);
@@ -164,7 +165,7 @@ internal sealed class StepController
                 break;
             }
 
-            halvings++;
+            halvings += wasEager ? 1 : 0;
         }
 
         cut.Record(halvings, demand);

@@ -160,7 +160,7 @@ internal sealed class Substep
         return _converged[0] && (_batch.ActiveSet == null || !_batch.ActiveSet.HasMissedEvent(tolerance));
     }
 
-    /// <summary>A <see cref="ProjectedStep"/> from the start pose.</summary>
+    /// <summary>A <see cref="ProjectedStep"/> from the start pose; energy that closing the end pose gave is taken from the speeds.</summary>
     public bool TryProjected(double h, double tolerance)
     {
         if (_batch.ActiveSet != null)
@@ -168,12 +168,19 @@ internal sealed class Substep
             _batch.ActiveSet.LocatesEvents = false;
         }
 
+        bool isKnown = EnergyAudit.IsKnown(_batch);
+        EnergyAudit before = isKnown ? new EnergyAudit(_batch, h, tolerance) : default;
         if (!IsExact || !_projected.TrySolve(h, tolerance))
         {
             return false;
         }
 
         Finish();
+        if (isKnown)
+        {
+            new EnergyAudit(_batch, h, tolerance).Dampen(_batch, before);
+        }
+
         Array.Clear(_batch.VelocityImpulses, 0, _batch.VelocityImpulses.Length);
         return IsFinite();
     }

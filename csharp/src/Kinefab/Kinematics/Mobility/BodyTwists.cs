@@ -220,15 +220,40 @@ internal sealed class BodyTwists
         }
     }
 
-    // Of the columns from one on.
+    // Of the columns from one on. Most bodies show few motions: then the transpose of the rows that are not zero has fewer columns.
     private int RankOf(double[] triangle, int from)
     {
-        var matrix = new double[Width, Width - from];
+        Span<int> rows = stackalloc int[Width];
+        int count = 0;
         for (int i = 0; i < Width; i++)
+        {
+            bool isZero = true;
+            foreach (double entry in triangle.AsSpan(i * Width + from, Width - from))
+            {
+                isZero &= entry == 0;
+            }
+
+            if (!isZero)
+            {
+                rows[count++] = i;
+            }
+        }
+
+        bool isFew = 2 * count <= Width - from;
+        var matrix = isFew ? new double[Width - from, count] : new double[count, Width - from];
+        for (int i = 0; i < count; i++)
         {
             for (int j = from; j < Width; j++)
             {
-                matrix[i, j - from] = triangle[i * Width + j];
+                double entry = triangle[rows[i] * Width + j];
+                if (isFew)
+                {
+                    matrix[j - from, i] = entry;
+                }
+                else
+                {
+                    matrix[i, j - from] = entry;
+                }
             }
         }
 

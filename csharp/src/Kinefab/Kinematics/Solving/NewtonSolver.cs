@@ -21,6 +21,9 @@ internal sealed class NewtonSolver
     private const double LeastDamping = 1e-9;
     private const double LargestStep = 0.5;
 
+    // A step that tells nothing any more, of a closed mechanism.
+    private const double Rounding = 1e-11;
+
     // The second step is to the first as the way's curvature is to its length, so halving the way lessens it: but not
     // where branches cross, there it stays, and what Newton's method finds is a matter of chance.
     private const double LeastFirstShrink = 0.15;
@@ -139,7 +142,7 @@ internal sealed class NewtonSolver
                 return acceptsDoubleRoot && n > 0 && Equations.Worst <= Accepted && Finish(state);
             }
 
-            if (size < 1e-11 && Equations.Worst <= Accepted)
+            if (size < Rounding && Equations.Worst <= Accepted)
             {
                 return Finish(state);
             }
@@ -190,7 +193,9 @@ internal sealed class NewtonSolver
             Motion.Start(state.Poses);
             Assemble(state);
             damping *= 10;
-            if (damping > 1e3)
+
+            // Far from the origin the numbers themselves are coarser than the tolerance: what a small step does not lessen is rounding.
+            if (damping > 1e3 || (size < Rounding && Equations.Worst <= Accepted))
             {
                 break;
             }

@@ -189,8 +189,7 @@ internal sealed class LimitedScene
             DriveTwist = One(4) ? Spring(1) : default,
             DriveSlerp = One(4) ? Spring(1) : default,
         };
-        bool isSlerp = joint.Twist != AxisMotion.Locked && joint.Swing1 != AxisMotion.Locked && joint.Swing2 != AxisMotion.Locked;
-        IsPassive &= isSlerp ? double.IsInfinity(joint.DriveSlerp.ForceLimit) || joint.DriveSlerp.Stiffness == 0 : joint.DriveTwist.Stiffness == 0;
+        IsPassive &= joint.Layout().IsSlerp ? double.IsInfinity(joint.DriveSlerp.ForceLimit) : joint.DriveTwist.Stiffness == 0;
         IsPassive &= !(joint.Swing1 == AxisMotion.Limited && joint.Swing2 == AxisMotion.Limited && joint.SwingLimit.Response.IsSoft);
         return joint;
     }

@@ -20,8 +20,11 @@ internal sealed class LimitedSceneTests
     private const int Steps = 20;
     private const double MostOpen = 1e-8;
     private const double MostPassed = 2e-8;
-    private const double MostGain = 1e-3;
-    private const double MostStopped = 0.05;
+    private const double MostStopped = 0.02;
+
+    // Of the largest energy so far: in a few scenes, and in any.
+    private const double MostUsualGain = 1e-3;
+    private const double MostGain = 5e-3;
 
     [Test]
     public void Step_ScenesThatRunIntoLimits_StayTrue()
@@ -62,6 +65,11 @@ internal sealed class LimitedSceneTests
 
             if (gain > MostGain)
             {
+                faults.Enqueue($"seed {seed}: energy grew by {gain} of the largest");
+            }
+
+            if (gain > MostUsualGain)
+            {
                 Interlocked.Increment(ref gained);
                 TestContext.Progress.WriteLine($"seed {seed}: energy grew by {gain} of the largest");
             }
@@ -72,11 +80,44 @@ internal sealed class LimitedSceneTests
         Assert.That((double)gained / count, Is.LessThanOrEqualTo(MostStopped));
     }
 
+    /// <summary>Kinematic bodies that move by centimetres hold wild ones: 1.6e7 J came of nothing while nobody audited what such bodies may give.</summary>
+    [Test]
+    public void Step_BesideKinematicBodies_GainsNoMoreThanTheyGive()
+    {
+        const double allowed = 50;
+        var scene = new LimitedScene(505);
+        var solver = new RattleSolver(scene.System, new List<InconsistentLoop>());
+        double start = scene.Energy();
+        for (int i = 1; i <= Steps; i++)
+        {
+            scene.Drive(i * scene.Step);
+            solver.Step(scene.Step);
+            Assert.That(scene.Energy() - start, Is.LessThan(allowed), $"step {i}");
+        }
+
+        Assert.That(scene.System.Stops, Is.Zero);
+    }
+
+    /// <summary>A motor of finite force on a loop that cannot move, with speeds at the start that its joints forbid: 64 stops.</summary>
+    [Test]
+    public void Step_MotorOnALoopThatCannotMove_StandsStill()
+    {
+        var scene = new LimitedScene(4);
+        var solver = new RattleSolver(scene.System, new List<InconsistentLoop>());
+        for (int i = 1; i <= Steps; i++)
+        {
+            solver.Step(scene.Step);
+        }
+
+        Assert.That(scene.System.Stops, Is.Zero);
+    }
+
     /// <summary>The same seed gives the same bits, whatever ran before.</summary>
     [Test]
     public void Step_Twice_GivesTheSameBits([Range(0, 10)] int seed)
     {
-        Assert.That(Bits(seed), Is.EqualTo(Bits(seed)));
+        ulong first = Bits(seed);
+        Assert.That(Bits(seed), Is.EqualTo(first));
 
         static ulong Bits(int seed)
         {

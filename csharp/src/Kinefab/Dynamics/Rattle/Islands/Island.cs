@@ -74,7 +74,7 @@ internal sealed class Island
             }
         }
 
-        IsWorkless = Array.IndexOf(IsStatic, false, movingBodies) < 0;
+        HasKinematic = Array.IndexOf(IsStatic, false, movingBodies) >= 0;
         RotationSplittings = new RotationSplitting[movingBodies];
         for (int b = 0; b < movingBodies; b++)
         {
@@ -104,8 +104,8 @@ internal sealed class Island
 
     public Link[] Links => _links ??= MakeLinks(_touching, Pattern);
 
-    /// <summary>Whether nothing but the bodies' own forces does work on them: no scalar row, no kinematic body.</summary>
-    public bool IsWorkless { get; }
+    /// <summary>Whether a body of theirs moves as it is told.</summary>
+    public bool HasKinematic { get; }
 
     /// <summary>Whether there are more joints and couplings than it takes to hang up the bodies, all that does not move being one.</summary>
     public bool HasLoops => Blocks.Length >= MovingBodies + (Bodies.Length > MovingBodies ? 1 : 0);

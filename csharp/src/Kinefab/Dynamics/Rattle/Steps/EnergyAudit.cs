@@ -19,7 +19,7 @@ internal readonly struct EnergyAudit
     // Of the speeds that the forces give in a step.
     private readonly double _forced;
 
-    // In springs; what those without potential gave since the start of the step, and an upper bound of what motors did.
+    // In springs; what those without potential gave since the start of the step, and an upper bound of what motors and kinematic bodies did.
     private readonly double _stored;
     private readonly double _sprung;
     private readonly double _driven;
@@ -41,7 +41,7 @@ internal readonly struct EnergyAudit
         _forced = 0;
         _stored = batch.ActiveSet?.StoredEnergy(dt) ?? 0;
         _sprung = batch.ActiveSet?.SpringWork() ?? 0;
-        _driven = batch.ActiveSet?.MotorWorkBound() ?? 0;
+        _driven = (batch.ActiveSet?.MotorWorkBound() ?? 0) + KinematicWorkBound(batch);
         double[] a = batch.Bodies;
         for (int body = 0; body < batch.Shape.MovingBodies; body++)
         {
@@ -59,10 +59,10 @@ internal readonly struct EnergyAudit
         }
     }
 
-    /// <summary>Whether nothing does work on an island but its bodies' own constant forces and its scalar rows.</summary>
+    /// <summary>Whether nothing does work on an island but its bodies' own constant forces, its scalar rows and kinematic bodies.</summary>
     public static bool IsKnown(LaneBatch<ScalarLane> batch)
     {
-        bool isKnown = batch.Shape.IsWorkless && !batch.Shape.IsInconsistent;
+        bool isKnown = !batch.Shape.IsInconsistent;
         for (int body = 0; body < batch.Shape.MovingBodies && isKnown; body++)
         {
             int o = LaneBatch<ScalarLane>.Body(body, BodyLanes.Torque);
@@ -72,10 +72,34 @@ internal readonly struct EnergyAudit
         return isKnown;
     }
 
+    // Each row's impulse since the start of the step at the speed that the kinematic bodies have along it, which is theirs for the whole step.
+    private static double KinematicWorkBound(LaneBatch<ScalarLane> batch)
+    {
+        if (!batch.Shape.HasKinematic)
+        {
+            return 0;
+        }
+
+        double[] speeds = batch.Work.Solution;
+        double[] without = batch.Work.LastSolution;
+        batch.ActiveSet?.WriteRows(true);
+        Impulses<ScalarLane>.NegativeSpeeds(batch, false);
+        Array.Copy(speeds, without, speeds.Length);
+        Impulses<ScalarLane>.NegativeSpeeds(batch);
+        batch.ActiveSet?.WriteRows(false);
+        double sum = 0;
+        for (int i = 0; i < speeds.Length; i++)
+        {
+            sum += Math.Abs((speeds[i] - without[i]) * batch.Work.TotalImpulses[i]);
+        }
+
+        return sum;
+    }
+
     /// <summary>Slows the bodies down until energy has not grown since by more than drives can have given.</summary>
     public void Dampen(LaneBatch<ScalarLane> batch, in EnergyAudit since)
     {
-        double gain = _kinetic + _stored - since._kinetic - since._stored - (_work - since._work) - (_sprung - since._sprung) - _driven;
+        double gain = _kinetic + _stored - since._kinetic - since._stored - (_work - since._work) - (_sprung - since._sprung) - (_driven - since._driven);
         if (!(gain > 0) || !(_kinetic > 0))
         {
             return;

@@ -38,7 +38,7 @@ def plain(document: dict, without: set[str]) -> dict[str, object]:
     for coupling in document.get("couplings", ()):
         name = coupling["id"].rpartition(":")[2].rpartition("/")[2]  # SDF's ids name the model too
         ratios = [term["ratio"] for term in coupling["terms"]] if "terms" in coupling else [coupling["ratio"]]
-        found[f"coupling of {name}"] = (ratios, coupling.get("offset", 0.0))
+        found[f"coupling of {name}"] = {"ratios": ratios, "offset": coupling.get("offset", 0.0)}
     return found
 
 

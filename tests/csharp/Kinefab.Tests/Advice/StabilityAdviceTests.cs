@@ -360,7 +360,7 @@ public sealed class StabilityAdviceTests
 
         Diagnostic found = advice.Report.Diagnostics.Single(d => d.Code == DiagnosticCodes.AdviceCannotFollow);
         Assert.That(found.Message, Does.Contain("exact").And.Contain("a step has no solution").And.Contain("ended after 0.02 s"));
-        Assert.That(told.Take(2), Is.EqualTo(new[] { "unity", "exact" }));
+        Assert.That(told.Take(2), Is.EqualTo("unity exact".Split()));
     }
 
     private sealed class Teller(List<string> told) : IProgress<string>

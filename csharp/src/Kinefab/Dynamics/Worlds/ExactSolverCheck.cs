@@ -42,8 +42,13 @@ internal static class ExactSolverCheck
             what.Add("maxJointVelocity");
         if (link.JointType == ArticulationJointType.Spherical && (Lopsided(link.SwingYLock, link.YDrive) || Lopsided(link.SwingZLock, link.ZDrive)))
             what.Add("the nearer of two swing limits that are not alike");
+        if (link.JointType == ArticulationJointType.Spherical && (Pulls(link, 0, link.XDrive) || Pulls(link, 1, link.YDrive) || Pulls(link, 2, link.ZDrive)))
+            what.Add("the angles of a ball's drives, whose sines it follows,");
         return what.Count > 0 ? string.Join(", ", what) : null;
     }
+
+    private static bool Pulls(ArticulationBody link, int axis, ArticulationDrive drive) =>
+        LinkJoint.TurnMotion(link, axis) != ConfigurableJointMotion.Locked && drive.DriveType != ArticulationDriveType.Velocity && (drive.Stiffness > 0 || drive.DriveType == ArticulationDriveType.Target);
 
     private static bool Lopsided(ConfigurableJointMotion motion, ArticulationDrive drive) => motion == ConfigurableJointMotion.Limited && drive.LowerLimit != -drive.UpperLimit;
 

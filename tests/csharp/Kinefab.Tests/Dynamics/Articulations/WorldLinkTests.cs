@@ -209,6 +209,17 @@ public sealed class WorldLinkTests
     }
 
     [Test]
+    public void Drive_OfABall_TheExactSolverSaysThatItFollowsSines()
+    {
+        ArticulationBody still = LinkScene.Link(Spherical), driven = LinkScene.Link(Spherical, new ArticulationDrive { Stiffness = 100 });
+        using (Assert.EnterMultipleScope())
+        {
+            Assert.That(LinkScene.World(SolverKind.Exact, still).Findings.Diagnostics, Is.Empty);
+            Assert.That(LinkScene.World(SolverKind.Exact, driven).Findings.Diagnostics.Select(d => d.Code), Is.EqualTo("LINK_NOT_EXACT".Split()));
+        }
+    }
+
+    [Test]
     public void MaxJointVelocity_OfALink_IsNotPassed()
     {
         World world = LinkScene.World(SolverKind.Unity, LinkScene.Link(Revolute) with { MaxJointVelocity = 1 });

@@ -49,10 +49,9 @@ FLOORS: dict[str, list[set[str]]] = {
     ],
     "unity": [
         {"frames", "scene", "definitions", "container"},
-        {"bodies", "assets", "joints", "constraints", "mobility", "standing", "placing"},
+        {"bodies", "assets", "joints", "constraints", "mobility", "standing", "placing", "apart"},
         {"mapping", "overlaps"},
-        {"welded"},
-        {"grouped"},
+        {"welded", "grouped"},
         {"counting", "links", "back"},
         {"__init__"},
     ],

@@ -3,14 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import replace
 from itertools import combinations, combinations_with_replacement, product
 
 from ..diagnostics import Report
 from ..model import Scene, ignored_groups
+from .apart import with_apart
 from .overlaps import bodies_of, joined_pairs
-from .scene import Collider, Component, Rigidbody, UnityScene
-from .welded import apart_joint
+from .scene import Collider, Rigidbody, UnityScene
 
 MOST_JOINTS = 1000
 """Pairs of bodies that get a joint for their groups."""
@@ -43,16 +42,13 @@ def with_groups_apart(scene: UnityScene, stated: Scene, report: Report) -> Unity
     left = {frozenset(pair) for pair in partly} - passing
     left |= {frozenset(pair) for pair in whole if None in pair or len(whole) > MOST_JOINTS}
     _tell(scene, groups, ignored, left, report)
-    added: dict[int, list[Component]] = {}
+    pairs: dict[tuple[int, int], str] = {}
     for a, b in whole:
         if a is not None and b is not None and frozenset((a, b)) not in left:
             own, other = (a, b) if _moves(scene, a) else (b, a)
             names = sorted({*groups[a], *groups[b]} - {""})
-            added.setdefault(own, []).append(apart_joint(scene, own, other, f"collision group {', '.join(names)}"))
-    objects = tuple(
-        replace(entry, components=(*entry.components, *added.get(i, ()))) for i, entry in enumerate(scene.gameObjects)
-    )
-    return replace(scene, gameObjects=objects)
+            pairs[own, other] = f"collision group {', '.join(names)}"
+    return with_apart(scene, pairs)
 
 
 Pairs = list[tuple[int | None, int | None]]

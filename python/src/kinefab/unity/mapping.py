@@ -14,6 +14,7 @@ from ..options import Ground
 from ..rigid import RigidGroups, active_nodes, is_kinematic
 from ..spatial import Pose
 from . import frames
+from .apart import apart_id, apart_joint
 from .assets.clips import map_clip
 from .assets.meshes import MappedMeshes
 from .assets.surfaces import map_physics_material, map_surface
@@ -30,7 +31,6 @@ from .scene import (
     ONE,
     Component,
     Coupling,
-    ConfigurableJoint,
     FixedJoint,
     GameObject,
     IgnoredCollision,
@@ -43,7 +43,6 @@ from .scene import (
 )
 from .scene import Joint as JointComponent
 from .scene.colliders.collider import Collider as UnityCollider
-from .scene.joints.configurable_joint import APART
 from .scene.joints.joint import AnchoredJoint
 from .scene.vectors import vector3
 
@@ -301,12 +300,8 @@ class _Builder:
             if frozenset((own, other)) in joined:
                 return
             joined.add(frozenset((own, other)))
-            id = free_id(f"apart:{self.objects[own].id} - {self.objects[other].id}", taken)
-            self.components[own].append(
-                ConfigurableJoint(
-                    connectedBody=other, autoConfigureConnectedAnchor=False, closure=True, id=id, extras={APART: reason}
-                )
-            )
+            id = free_id(apart_id(self.objects[own].id, self.objects[other].id), taken)
+            self.components[own].append(apart_joint(id, other, reason))
 
         for own, other in self._beside_bases():
             keep(own, other, "part of the base of a joint")

@@ -2,14 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
-from dataclasses import replace
-
 from ..geometry.contact.nearness import close_pairs
 from ..partition import Partition
+from .apart import with_apart
 from .overlaps import bodies_of, joined_pairs
-from .scene import Component, ConfigurableJoint, FixedJoint, UnityScene
-from .scene.joints.configurable_joint import APART
+from .scene import FixedJoint, UnityScene
 from .standing import standing_colliders
 
 
@@ -30,34 +27,11 @@ def with_welded_apart(scene: UnityScene) -> UnityScene:
         return scene
     standing = standing_colliders(scene)
     held = joined_pairs(scene, bodies)
-    added: dict[int, list[Component]] = {}
+    pairs: dict[tuple[int, int], str] = {}
     for first, second in close_pairs(standing.low, standing.high).tolist():
         a, b = (bodies[standing.owners[i]] for i in (first, second))
         if a is None or b is None or a == b or welded.find(a) != welded.find(b) or frozenset((a, b)) in held:
             continue
         held.add(frozenset((a, b)))
-        own, other = max(a, b), min(a, b)
-        added.setdefault(own, []).append(apart_joint(scene, own, other, "held together by FixedJoints"))
-    return _with(scene, added)
-
-
-def apart_joint(scene: UnityScene, own: int, other: int, reason: str) -> ConfigurableJoint:
-    """A joint that holds nothing and keeps two bodies, by their objects, from colliding."""
-    id = f"apart:{scene.gameObjects[own].id} - {scene.gameObjects[other].id}"
-    return ConfigurableJoint(
-        connectedBody=other,
-        autoConfigureConnectedAnchor=False,
-        closure=True,
-        id=id,
-        extras={APART: reason},
-    )
-
-
-def _with(scene: UnityScene, added: Mapping[int, list[Component]]) -> UnityScene:
-    if not added:
-        return scene
-    objects = tuple(
-        replace(entry, components=(*entry.components, *added.get(i, ())))
-        for i, entry in enumerate(scene.gameObjects)
-    )
-    return replace(scene, gameObjects=objects)
+        pairs[max(a, b), min(a, b)] = "held together by FixedJoints"
+    return with_apart(scene, pairs)

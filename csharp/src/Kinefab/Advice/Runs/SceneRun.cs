@@ -11,7 +11,7 @@ namespace Kinefab.Advice.Runs;
 internal sealed class SceneRun
 {
     // Joints times parts of steps after which a run whose steps are forced is ended: a second or so.
-    private const double MostSubstepWork = 1e4;
+    private const double MostSubstepWork = 1e5;
 
     private SceneRun(World world, ValidScene scene, RunPlan plan)
     {

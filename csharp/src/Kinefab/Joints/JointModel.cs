@@ -119,8 +119,12 @@ internal abstract class JointModel
     /// </summary>
     public abstract int Prepare(in Pose body0, in Pose body1, Span<ConstraintRow> rows);
 
-    /// <summary>As <see cref="Prepare"/>, but the locked axes' rows alone, at frames that are known; none unless a joint says otherwise.</summary>
-    public virtual int PrepareLocked(in JointFrames frames, Vector3d center0, Vector3d center1, Span<ConstraintRow> rows) => 0;
+    /// <summary>As <see cref="Prepare"/>, but the locked axes' rows alone, and the frames at which they hold; no row unless a joint says otherwise.</summary>
+    public virtual int PrepareLocked(in Pose body0, in Pose body1, Span<ConstraintRow> rows, out JointFrames frames)
+    {
+        FramesAt(body0, body1, out frames);
+        return 0;
+    }
 
     /// <summary>Which rows the joint may ever have with its fields as they are. Unless a joint says otherwise: drive rows alone, as many as it writes now.</summary>
     public virtual RowLayout Layout()

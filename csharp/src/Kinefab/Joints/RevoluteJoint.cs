@@ -62,9 +62,10 @@ internal sealed class RevoluteJoint : JointModel
     public override int PrepareForces(in Pose body0, in Pose body1, Span<ConstraintRow> rows) => Prepare(body0, body1, rows, false);
 
     /// <inheritdoc/>
-    public override int PrepareLocked(in JointFrames frames, Vector3d center0, Vector3d center1, Span<ConstraintRow> rows)
+    public override int PrepareLocked(in Pose body0, in Pose body1, Span<ConstraintRow> rows, out JointFrames frames)
     {
-        var writer = new RowWriter(rows, frames.P1, center0, center1, LimitsFromAfar);
+        FramesAt(body0, body1, out frames);
+        var writer = new RowWriter(rows, frames.P1, body0.Position, body1.Position, LimitsFromAfar);
         LockedAxes(ref writer, frames);
         return writer.Count;
     }

@@ -61,8 +61,10 @@ internal sealed class RunIsland
             }
 
             // One of an inactive object's joint is none.
-            for (int i = 1; coupled.Count > coupling.Followed.Count && i < coupled.Count; i++)
-                Join(coupled[0], coupled[i]);
+            if (coupled.Count <= coupling.Followed.Count)
+                continue;
+            foreach (WorldJoint joint in coupled)
+                Join(coupled[0], joint);
         }
 
         ILookup<int, int> jointsOf = world.Joints.Where(j => Moving(j).Any()).ToLookup(j => sets.Find(Moving(j).First()), j => j.Index);

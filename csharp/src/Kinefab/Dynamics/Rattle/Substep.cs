@@ -169,6 +169,11 @@ internal sealed class Substep
     /// <summary>A <see cref="ProjectedStep"/> from the start pose; energy that closing the end pose gave is taken from the speeds.</summary>
     public bool TryProjected(double h, double tolerance)
     {
+        if (!IsExact)
+        {
+            return false;
+        }
+
         if (_batch.ActiveSet != null)
         {
             _batch.ActiveSet.LocatesEvents = false;
@@ -176,7 +181,7 @@ internal sealed class Substep
 
         bool isKnown = EnergyAudit.IsKnown(_batch);
         EnergyAudit before = isKnown ? new EnergyAudit(_batch, h, tolerance) : default;
-        if (!IsExact || !_projected.TrySolve(h, tolerance))
+        if (!_projected.TrySolve(h, tolerance))
         {
             return false;
         }

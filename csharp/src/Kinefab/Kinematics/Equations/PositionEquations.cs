@@ -57,9 +57,7 @@ internal sealed class PositionEquations
         foreach (int j in _linkage.Tree.Closures)
         {
             JointModel joint = _linkage.Joints[j];
-            Pose body0 = Linkage.PoseOf(joint.Body0, poses), body1 = Linkage.PoseOf(joint.Body1, poses);
-            joint.FramesAt(body0, body1, out JointFrames frames);
-            int count = joint.PrepareLocked(frames, body0.Position, body1.Position, _rows);
+            int count = joint.PrepareLocked(Linkage.PoseOf(joint.Body0, poses), Linkage.PoseOf(joint.Body1, poses), _rows, out _);
             for (int i = 0; i < count; i++)
             {
                 AddJointRow(j, _rows[i], poses);

@@ -151,9 +151,7 @@ internal sealed class TreeMotion
         double previous = double.PositiveInfinity;
         for (int n = 0; ; n++)
         {
-            Pose body0 = Linkage.PoseOf(joint.Body0, poses), body1 = Linkage.PoseOf(joint.Body1, poses);
-            joint.FramesAt(body0, body1, out frames);
-            int count = joint.PrepareLocked(frames, body0.Position, body1.Position, _rows);
+            int count = joint.PrepareLocked(Linkage.PoseOf(joint.Body0, poses), Linkage.PoseOf(joint.Body1, poses), _rows, out frames);
             Vector3d slide = Vector3d.Zero;
             Vector3d turn = Vector3d.Zero;
             double worst = 0;

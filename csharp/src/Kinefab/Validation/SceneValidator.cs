@@ -139,17 +139,20 @@ public static class SceneValidator
         }
     }
 
+    /// <summary>One that is switched off could be switched on, so it must be sound; what it would then do is not told of.</summary>
     private static void Joint(Joint joint, int index, ReadOnlySpan<GameObject> objects, double step, in Place at)
     {
         JointRules.Numbers(joint, at);
         JointRules.OwnBody(objects[index].Link is null ? objects[index].Body : null, at);
         JointRules.ConnectedBody(joint, index, objects, at);
-        JointRules.Kinematic(joint, objects[index].Body, objects, at);
+        if (joint.Enabled)
+            JointRules.Kinematic(joint, objects[index].Body, objects, at);
         if (joint is AnchoredJoint anchored)
         {
             JointRules.AnchorNumbers(anchored, at);
             JointRules.Axis(anchored, at);
-            JointRules.Stated(anchored, at);
+            if (joint.Enabled)
+                JointRules.Stated(anchored, at);
         }
 
         if (joint is HingeJoint hinge)
@@ -162,6 +165,8 @@ public static class SceneValidator
     {
         HingeRules.Numbers(hinge, at);
         HingeRules.LimitsOrder(hinge, at);
+        if (!hinge.Enabled)
+            return;
         HingeRules.LimitsEqual(hinge, at);
         HingeRules.LimitsRange(hinge, at);
         WrapRules.Hinge(hinge, step, at);
@@ -175,6 +180,9 @@ public static class SceneValidator
         ConfigurableRules.SecondaryAxis(joint, at);
         ConfigurableRules.AngularXLimitsOrder(joint, at);
         ConfigurableRules.SymmetricLimits(joint, at);
+        DriveRules.Numbers(joint, at);
+        if (!joint.Enabled)
+            return;
         ConfigurableRules.AngularLimitsRange(joint, at);
         WrapRules.Twist(joint, step, at);
         ConfigurableRules.SwingLimitBesideFree(joint, at);
@@ -182,7 +190,6 @@ public static class SceneValidator
         ConfigurableRules.BounceOfSoftLimit(joint, at);
         ConfigurableRules.SharedResponse(joint, at);
         ConfigurableRules.DamperWithoutSpring(joint, at);
-        DriveRules.Numbers(joint, at);
         DriveRules.SlerpLocked(joint, at);
         DriveRules.OtherMode(joint, at);
         DriveRules.LockedFreedom(joint, at);
@@ -257,7 +264,7 @@ public static class SceneValidator
             ReadOnlySpan<Component> components = objects[i].ComponentSpan;
             for (int c = 0; c < components.Length; c++)
             {
-                if (components[c] is AnchoredJoint joint)
+                if (components[c] is AnchoredJoint { Enabled: true } joint)
                     Anchors(joint, scene, i, new Place(findings, "gameObjects", i, c));
                 else if (components[c] is ArticulationBody link && LinkJoint.Parent(scene.Document, i) is int above)
                     LinkRules.Anchors(link, scene.WorldTransform(i), scene.WorldTransform(above), new Place(findings, "gameObjects", i, c));

@@ -273,6 +273,7 @@ def _mapped(found: Analysed, options: ExportOptions, links: bool, report: Report
     entry, held = scene_entry(found.analysis), holding(found.analysis)
     mapped = map_scene(scene, groups, colliders, report, entry, held, found.analysis.findings)
     mapped = with_groups_apart(with_welded_apart(mapped), found.scene, report)
-    check_overlaps(mapped, report)
+    if not links:  # of links the target that makes them tells
+        check_overlaps(mapped, report)
     report.settle()
     return mapped

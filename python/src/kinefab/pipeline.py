@@ -163,7 +163,7 @@ def analysed(scene: Scene, options: ExportOptions, report: Report, progress: Pro
     )
     report.extend(found.report)
     exported = with_helpers(found.scene(options.solve))
-    groups = rigid_groups(exported, found.fixed)
+    groups = rigid_groups(exported, [*found.fixed, *found.built])
     exported = with_mated_apart(exported, groups)
     progress("analyse", 1.0)
     return Analysed(found, exported, groups)

@@ -25,7 +25,7 @@ internal sealed class CollisionPairs
         {
             foreach (Component component in objects[i].Components)
             {
-                if (component is Joint { ConnectedBody: int connected, EnableCollision: false })
+                if (component is Joint { Enabled: true, ConnectedBody: int connected, EnableCollision: false })
                     _joined.Add(Pair(Body(i), Body(connected)));
             }
 

@@ -98,7 +98,7 @@ def joined_pairs(scene: UnityScene, moved: list[int | None]) -> set[frozenset[in
         frozenset((moved[i], moved[c.connectedBody]))
         for i, entry in enumerate(scene.gameObjects)
         for c in entry.components
-        if isinstance(c, Joint) and c.connectedBody is not None and not c.enableCollision
+        if isinstance(c, Joint) and c.enabled and c.connectedBody is not None and not c.enableCollision
     }
     links = {i for i, e in enumerate(scene.gameObjects) if any(isinstance(c, ArticulationBody) for c in e.components)}
     return joined | {frozenset((i, above)) for i in links if (above := _link_above(scene, links, i)) is not None}

@@ -75,6 +75,7 @@ public sealed class StartOverlapsTests
         {
             Assert.That(Told(Body("A", Cube), joined), Is.Empty);
             Assert.That(Told(Body("A", Cube), colliding), Has.Length.EqualTo(1));
+            Assert.That(Told(Body("A", Cube), Body("B", Cube, 0.15, new FixedJoint { ConnectedBody = 0, Enabled = false })), Has.Length.EqualTo(1));
         });
     }
 

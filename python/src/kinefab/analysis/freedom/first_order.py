@@ -109,7 +109,11 @@ def large_null_space(
     _, s, vt = np.linalg.svd(loops, full_matrices=False)
     # beside the tree's rows, of length 1: where all of the loops repeat these, the largest singular value is a rounding too
     rank, gap = rank_of(np.concatenate([[max(1.0, s.max(initial=0.0))], s]))
-    moving = _without(free, vt[: int(rank) - 1])
+    held = int(rank) - 1
+    if len(s) == free.shape[1] and 2 * held > len(s):  # all directions are there, and fewer are left than go
+        moving = free @ vt[held:].T
+    else:
+        moving = _without(free, vt[:held])
     return width - moving.shape[1], moving, float(gap)
 
 

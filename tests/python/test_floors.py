@@ -51,7 +51,7 @@ FLOORS: dict[str, list[set[str]]] = {
         {"frames", "scene", "definitions", "container"},
         {"bodies", "assets", "joints", "constraints", "mobility", "standing", "placing", "apart"},
         {"mapping", "overlaps"},
-        {"welded", "grouped"},
+        {"welded", "grouped", "switched_off"},
         {"counting", "links", "back"},
         {"__init__"},
     ],

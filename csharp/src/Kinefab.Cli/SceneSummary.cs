@@ -8,6 +8,8 @@ namespace Kinefab.Cli;
 /// <summary>What is in a scene, counted.</summary>
 internal sealed class SceneSummary
 {
+    private readonly HashSet<int> _several;
+
     internal SceneSummary(ValidScene scene)
     {
         Document = scene.Document;
@@ -22,6 +24,8 @@ internal sealed class SceneSummary
                     Joints.Add(new JointSummary(i, c, components[c].GetType().Name, scene.Joint(new JointCoordinate { GameObject = i, Component = c }), scene.Freedoms(i, c)));
             }
         }
+
+        _several = Joints.Where(joint => joint.Joint.Enabled).GroupBy(joint => joint.GameObject).Where(joints => joints.Skip(1).Any()).Select(joints => joints.Key).ToHashSet();
     }
 
     internal SceneDocument Document { get; }
@@ -35,6 +39,14 @@ internal sealed class SceneSummary
     internal long Vertices => Document.Meshes.Sum(mesh => (long)mesh.VertexCount);
 
     internal long Triangles => Document.Meshes.Sum(mesh => mesh.Submeshes.Sum(submesh => (long)submesh.IndexCount)) / 3;
+
+    /// <summary>Of a joint: its object's id, with [COMPONENT] behind it where the object carries several, or it is switched off.</summary>
+    internal string NameOf(int gameObject, int component)
+    {
+        string id = Document.GameObjects[gameObject].Id;
+        bool isOff = Document.GameObjects[gameObject].Components[component] is Joint { Enabled: false };
+        return isOff || _several.Contains(gameObject) ? $"{id}[{component}]" : id;
+    }
 
     internal int Count(Outcome outcome) => Document.Report.Count(entry => entry.Outcome == outcome);
 }

@@ -37,6 +37,8 @@ internal static class SummaryJson
         json.WriteNumber("component", summary.Component);
         if (summary.Joint.ConnectedBody is int body)
             json.WriteString("connectedBody", document.GameObjects[body].Id);
+        if (!summary.Joint.Enabled)
+            json.WriteBoolean("enabled", false);
         json.WriteStartArray("freedoms");
         foreach (JointFreedom freedom in summary.Freedoms)
         {

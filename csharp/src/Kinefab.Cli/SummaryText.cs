@@ -18,10 +18,10 @@ internal static class SummaryText
         Line(target, $"meshes     {document.Meshes.Count}, vertices {summary.Vertices}, triangles {summary.Triangles}");
         Line(target, $"joints     {summary.Joints.Count}");
         foreach (JointSummary joint in summary.Joints)
-            Entry(target, Describe(joint, document));
+            Entry(target, Describe(joint, summary));
         Line(target, $"couplings  {document.Couplings.Count}");
         foreach (Coupling coupling in document.Couplings)
-            Entry(target, Describe(coupling, document));
+            Entry(target, Describe(coupling, summary));
         if (document.Analysis is Analysis analysis)
             WriteAnalysis(analysis, target);
         Line(target, $"source     {summary.Count(Outcome.Kept)} kept, {summary.Count(Outcome.Approximated)} approximated, {summary.Count(Outcome.Dropped)} dropped");
@@ -35,13 +35,14 @@ internal static class SummaryText
         Line(target, $"mobility   {analysis.Mobility} in {Counted.Of(analysis.Islands.Count, "island", "islands")}{redundant}");
     }
 
-    private static string Describe(JointSummary summary, SceneDocument document)
+    private static string Describe(JointSummary joint, SceneSummary summary)
     {
-        string other = summary.Joint.ConnectedBody is int body ? document.GameObjects[body].Id : "world";
-        string freedoms = summary.Freedoms.Count == 0 ? "nothing free" : string.Join(", ", summary.Freedoms.Select(Describe));
-        string closure = summary.Joint.Closure ? ", closes a loop" : "";
-        string exact = summary.Joint.Exact ? "" : ", approximated";
-        return $"{summary.Type} {document.GameObjects[summary.GameObject].Id} - {other}: {freedoms}{closure}{exact}";
+        string other = joint.Joint.ConnectedBody is int body ? summary.Document.GameObjects[body].Id : "world";
+        string freedoms = joint.Freedoms.Count == 0 ? "nothing free" : string.Join(", ", joint.Freedoms.Select(Describe));
+        string closure = joint.Joint.Closure ? ", closes a loop" : "";
+        string exact = joint.Joint.Exact ? "" : ", approximated";
+        string off = joint.Joint.Enabled ? "" : ", switched off";
+        return $"{joint.Type} {summary.NameOf(joint.GameObject, joint.Component)} - {other}: {freedoms}{closure}{exact}{off}";
     }
 
     private static string Describe(JointFreedom freedom)
@@ -53,15 +54,15 @@ internal static class SummaryText
         return $"{name} {Number(freedom.Lower)}..{Number(freedom.Upper)} {unit}";
     }
 
-    private static string Describe(Coupling coupling, SceneDocument document)
+    private static string Describe(Coupling coupling, SceneSummary summary)
     {
         string offset = coupling.Offset == 0 ? "" : " + " + Number(coupling.Offset);
-        IEnumerable<string> terms = coupling.Followed.Select(term => $"{term.Ratio.ToString("G6", CultureInfo.InvariantCulture)} * {Describe(term.Coordinate, document)}");
-        return $"{coupling.Kind}: {Describe(coupling.B, document)} = {string.Join(" + ", terms)}{offset}";
+        IEnumerable<string> terms = coupling.Followed.Select(term => $"{term.Ratio.ToString("G6", CultureInfo.InvariantCulture)} * {Describe(term.Coordinate, summary)}");
+        return $"{coupling.Kind}: {Describe(coupling.B, summary)} = {string.Join(" + ", terms)}{offset}";
     }
 
-    private static string Describe(JointCoordinate coordinate, SceneDocument document) =>
-        $"{document.GameObjects[coordinate.GameObject].Id}.{coordinate.Coordinate.ToJson()}";
+    private static string Describe(JointCoordinate coordinate, SceneSummary summary) =>
+        $"{summary.NameOf(coordinate.GameObject, coordinate.Component)}.{coordinate.Coordinate.ToJson()}";
 
     private static string Describe(ReportEntry entry)
     {

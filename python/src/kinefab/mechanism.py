@@ -47,6 +47,7 @@ def motion(source: str | Path | Scene) -> Mechanism:
         from .sources import read
 
         scene = read(Path(source), report)
+    scene = scene.with_disabled_apart()
     check_limits(scene, report)
     report.raise_for_errors()
     records = joints_of_dof_records(scene, rigid_groups(scene), report)

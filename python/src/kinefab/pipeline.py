@@ -46,6 +46,7 @@ from .unity.mapping import map_scene
 from .unity.overlaps import check_overlaps
 from .unity.scene import Joint as UnityJoint
 from .unity.scene import UnityScene
+from .unity.switched_off import with_switched_off
 from .unity.welded import with_welded_apart
 
 Progress = Callable[[str, float], None]
@@ -129,7 +130,7 @@ def prepared(
         scene.tell_unused(options, report)
     if not scene.nodes:
         report.add("SCENE_WITHOUT_PARTS")
-    scene = with_sound_breaks(mated(_enabled(scene, report), options.reading, report), report)
+    scene = with_sound_breaks(mated(scene.with_disabled_apart(), options.reading, report), report)
     check_limits(scene, report)
     scene = with_sound_meshes(load_geometry(scene, files, report, progress), report)
     report.raise_for_errors()
@@ -254,14 +255,6 @@ def _read(
     return scene
 
 
-def _enabled(scene: Scene, report: Report) -> Scene:
-    """The scene without joints that the source switches off."""
-    off = [joint for joint in scene.joints if not joint.enabled]
-    for joint in off:
-        report.dropped(f"joint {joint.id}", "JOINT_DISABLED", joint.where, joint=joint.id)
-    return replace(scene, joints=[joint for joint in scene.joints if joint.enabled]) if off else scene
-
-
 def _mapped(found: Analysed, options: ExportOptions, links: bool, report: Report) -> UnityScene:
     """links: whether joints make links of the bodies that they join."""
     if isinstance(found.scene, WrittenScene) and (as_written := found.scene.as_written(links, options, report)):
@@ -274,5 +267,6 @@ def _mapped(found: Analysed, options: ExportOptions, links: bool, report: Report
     mapped = map_scene(scene, groups, colliders, report, entry, held, found.analysis.findings)
     mapped = with_groups_apart(with_welded_apart(mapped), found.scene, report)
     check_overlaps(mapped, report)
+    mapped = with_switched_off(mapped, found.scene, groups, report)
     report.settle()
     return mapped

@@ -18,7 +18,7 @@ internal static class ConeLimitError
     /// <param name="limit">Half angles, radians.</param>
     /// <param name="padding">Radians.</param>
     /// <param name="swing">Rotation without twist.</param>
-    /// <param name="isExact">Whether the nearest point is found to rounding, not as coarsely as PhysX finds it: there it jumps.</param>
+    /// <param name="isExact">Whether the nearest point is found to rounding and the axis is the error's gradient; PhysX finds it coarsely, so that it jumps, and its axis near by.</param>
     /// <param name="axis">Unit axis in frame 0 about which a positive rotation leads outwards.</param>
     /// <param name="error">Positive inside.</param>
     public static bool Find(in ConeLimit limit, double padding, Quaterniond swing, bool isExact, out Vector3d axis, out double error)
@@ -35,13 +35,53 @@ internal static class ConeLimitError
         }
 
         NearestOnEllipse(y, z, limit.Y, limit.Z, isExact ? Exact : Coarse, out double py, out double pz);
+        Vector3d twistAxis = swing * Vector3d.UnitX;
+        if (isExact)
+        {
+            error = ExactError(limit, py, pz, twistAxis, out axis);
+            return true;
+        }
+
         var radius = new Vector3d(0, Trigonometry.Tan(py / 4), Trigonometry.Tan(pz / 4));
-        var direction = new Vector3d(0, py / (limit.Y * limit.Y), pz / (limit.Z * limit.Z));
-        error = AxisAndError(radius, direction, swing * Vector3d.UnitX, out axis);
+        Vector3d line = Line(radius, new Vector3d(0, py / (limit.Y * limit.Y), pz / (limit.Z * limit.Z)), out Vector3d normal);
+        axis = Vector3d.Cross(line, normal) * (1 / normal.Length);
+        error = Vector3d.Dot(Vector3d.Cross(line, axis), twistAxis);
         return true;
     }
 
-    private static double AxisAndError(Vector3d r, Vector3d d, Vector3d twistAxis, out Vector3d axis)
+    // The angle to the cone, and the way along the cone there, about which the X axis turns when that angle alone changes. PhysX's axis, square to
+    // the ellipse's normal as it is among the swing angles, is off by some 12 degrees near the tip of a narrow cone, and more beyond it: what
+    // holds by it gives energy. The search begins at the point that is nearest among the swing angles.
+    private static double ExactError(in ConeLimit limit, double py, double pz, Vector3d twistAxis, out Vector3d axis)
+    {
+        const int most = 20;
+        const double enough = 1e-14;
+        double at = Trigonometry.Atan2(pz / limit.Z, py / limit.Y);
+        double before = at - 1e-3 * Math.Min(limit.Y, limit.Z) / Math.Max(limit.Y, limit.Z);
+        double last = Along(limit, before, twistAxis, out _, out _);
+        double slope = Along(limit, at, twistAxis, out Vector3d line, out Vector3d along);
+        for (int i = 0; i < most && limit.Response.IsSoft && Math.Abs(slope) > enough * along.Length && slope != last; i++)
+        {
+            (before, at, last) = (at, at - slope * (at - before) / (slope - last), slope);
+            slope = Along(limit, at, twistAxis, out line, out along);
+        }
+
+        axis = along * (1 / along.Length);
+        return Trigonometry.Asin(Math.Max(-1, Math.Min(1, Vector3d.Dot(Vector3d.Cross(line, axis), twistAxis))));
+    }
+
+    // At the ellipse's point of a parameter: the cone's line, how it moves along it, outwards to the left, and how fast that leads towards a direction.
+    private static double Along(in ConeLimit limit, double parameter, Vector3d direction, out Vector3d line, out Vector3d along)
+    {
+        double cosine = Trigonometry.Cos(parameter);
+        double sine = Trigonometry.Sin(parameter);
+        var r = new Vector3d(0, Trigonometry.Tan(limit.Y * cosine / 4), Trigonometry.Tan(limit.Z * sine / 4));
+        line = Line(r, new Vector3d(0, -limit.Y * sine * (1 + r.Y * r.Y) / 4, limit.Z * cosine * (1 + r.Z * r.Z) / 4), out along);
+        return Vector3d.Dot(along, direction);
+    }
+
+    // The line of the cone at tangents of quarter angles r, and how it moves with r along d.
+    private static Vector3d Line(Vector3d r, Vector3d d, out Vector3d moved)
     {
         double r2 = r.LengthSquared;
         double a = 1 - r2;
@@ -54,10 +94,8 @@ internal static class ConeLimitError
         double rd = Vector3d.Dot(r, d);
         double dv1 = -4 * rd * (3 - r2) * b2 * b;
         var dv2 = new Vector3d(-2 * rd, 2 * d.Z, -2 * d.Y);
-        Vector3d normal = v1 * dv2 + dv1 * v2;
-
-        axis = Vector3d.Cross(line, normal) * (1 / normal.Length);
-        return Vector3d.Dot(Vector3d.Cross(line, axis), twistAxis);
+        moved = v1 * dv2 + dv1 * v2;
+        return line;
     }
 
     // Newton on the Lagrange multiplier; PhysX's start and its coarse stop are kept (PsMathUtils.h, ellipseClamp), since

@@ -32,7 +32,7 @@ internal sealed class MechanismDefinition
     /// <summary>In order of GameObject and component; a link's own joint among them.</summary>
     public IReadOnlyList<JointDefinition> Joints { get; }
 
-    /// <summary>What Unity makes of a scene: inactive objects have neither bodies nor joints.</summary>
+    /// <summary>What Unity makes of a scene: inactive objects have neither bodies nor joints, and joints that are switched off are none.</summary>
     public static MechanismDefinition From(ValidScene scene)
     {
         IReadOnlyList<GameObject> objects = scene.Document.GameObjects;
@@ -56,7 +56,7 @@ internal sealed class MechanismDefinition
         {
             for (int c = 0; isActive[i] && c < objects[i].Components.Count; c++)
             {
-                if (objects[i].Components[c] is Document.Joint joint)
+                if (objects[i].Components[c] is Document.Joint { Enabled: true } joint)
                 {
                     joints.Add(new JointDefinition(i, c, joint, bodyOf[i], Connected(joint)));
                 }
@@ -90,7 +90,7 @@ internal sealed class MechanismDefinition
         return joints;
     }
 
-    /// <summary>Index of a component's joint in <see cref="Joints"/>; -1 when its object is inactive.</summary>
+    /// <summary>Index of a component's joint in <see cref="Joints"/>; -1 when its object is inactive or it is switched off.</summary>
     public int IndexOf(int gameObject, int component)
     {
         for (int j = _firstJoints[gameObject]; j < _firstJoints[gameObject + 1]; j++)

@@ -105,7 +105,7 @@ public static class SceneValidator
                     break;
                 case Joint joint:
                     Joint(joint, index, objects, document.Physics.FixedTimestep, place);
-                    if (joint is AnchoredJoint)
+                    if (joint is AnchoredJoint { Enabled: true })
                         anchored.Add((index, c));
                     break;
             }
@@ -134,17 +134,20 @@ public static class SceneValidator
         }
     }
 
+    /// <summary>One that is switched off could be switched on, so it must be sound; what it would then do is not told of.</summary>
     private static void Joint(Joint joint, int index, ReadOnlySpan<GameObject> objects, double step, in Place at)
     {
         JointRules.Numbers(joint, at);
         JointRules.OwnBody(objects[index].Link is null ? objects[index].Body : null, at);
         JointRules.ConnectedBody(joint, index, objects, at);
-        JointRules.Kinematic(joint, objects[index].Body, objects, at);
+        if (joint.Enabled)
+            JointRules.Kinematic(joint, objects[index].Body, objects, at);
         if (joint is AnchoredJoint anchored)
         {
             JointRules.AnchorNumbers(anchored, at);
             JointRules.Axis(anchored, at);
-            JointRules.Stated(anchored, at);
+            if (joint.Enabled)
+                JointRules.Stated(anchored, at);
         }
 
         if (joint is HingeJoint hinge)
@@ -157,6 +160,8 @@ public static class SceneValidator
     {
         HingeRules.Numbers(hinge, at);
         HingeRules.LimitsOrder(hinge, at);
+        if (!hinge.Enabled)
+            return;
         HingeRules.LimitsEqual(hinge, at);
         HingeRules.LimitsRange(hinge, at);
         WrapRules.Hinge(hinge, step, at);
@@ -170,6 +175,9 @@ public static class SceneValidator
         ConfigurableRules.SecondaryAxis(joint, at);
         ConfigurableRules.AngularXLimitsOrder(joint, at);
         ConfigurableRules.SymmetricLimits(joint, at);
+        DriveRules.Numbers(joint, at);
+        if (!joint.Enabled)
+            return;
         ConfigurableRules.AngularLimitsRange(joint, at);
         WrapRules.Twist(joint, step, at);
         ConfigurableRules.SwingLimitBesideFree(joint, at);
@@ -177,7 +185,6 @@ public static class SceneValidator
         ConfigurableRules.BounceOfSoftLimit(joint, at);
         ConfigurableRules.SharedResponse(joint, at);
         ConfigurableRules.DamperWithoutSpring(joint, at);
-        DriveRules.Numbers(joint, at);
         DriveRules.SlerpLocked(joint, at);
         DriveRules.OtherMode(joint, at);
         DriveRules.LockedFreedom(joint, at);

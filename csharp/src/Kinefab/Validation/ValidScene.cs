@@ -117,7 +117,7 @@ public sealed partial class ValidScene
         {
             bodies += gameObject.Body is null ? 0 : 1;
             foreach (Component component in gameObject.Components)
-                joints += component is Joint ? 1 : 0;
+                joints += component is Joint { Enabled: true } ? 1 : 0;
         }
 
         for (int i = 0; i < Document.GameObjects.Count; i++)

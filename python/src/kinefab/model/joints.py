@@ -120,7 +120,7 @@ class Joint:
     Which body carries an axis matters for pin-slot, universal and the point-on kinds (see JointKind);
     for all translations it is a.
     freedoms: six, in the order tx ty tz rx ry rz.  lead: of a SCREW, metres a turn, right-handed.
-    enabled: False for a joint that the source has and switches off.  collide: whether the two bodies collide.
+    enabled: False for a joint that the source has and switches off: it holds nothing.  collide: whether the two bodies collide.
     closes: the source says that it closes a loop, so others carry the bodies where they can.
     slerp: one drive about all three rotations, instead of single ones.
     because: ids of the source's constraints or joints that this one comes from.

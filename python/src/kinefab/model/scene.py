@@ -60,6 +60,8 @@ class Scene:
 
     offers: what else the source can give, by the name of the option that asks for it: names of its variants
         (``variant``: "set=name"), of its keyframes (``keyframe``).
+    switched_off: joints that hold nothing.  A reader, or a script, leaves them in ``joints``, not ``enabled``; they come here before
+        anything is counted (``with_disabled_apart``).
     apart: pairs of bodies that pass through each other by the source's own rule, beside those that joints keep from colliding.
     colliding: pairs of bodies that collide by the source's own rule, whatever their groups; a joint between such two has ``collide``.
     identities: by the id of a node, joint, constraint or coupling, where ids are made of names that people change: what it is in
@@ -72,6 +74,7 @@ class Scene:
     meshes: list[Mesh] = field(default_factory=list[Mesh])
     surfaces: list[Surface] = field(default_factory=list[Surface])
     joints: list[Joint] = field(default_factory=list[Joint])
+    switched_off: list[Joint] = field(default_factory=list[Joint])
     couplings: list[Coupling] = field(default_factory=list[Coupling])
     constraints: list[Constraint] = field(default_factory=list[Constraint])
     dof_records: list[DofRecord] = field(default_factory=list[DofRecord])
@@ -107,6 +110,23 @@ class Scene:
         ('Lid', 'ground')
         """
         return "ground" if node is None else self.nodes[node].id
+
+    def with_disabled_apart(self) -> Scene:
+        """The same scene with the joints that are not enabled in ``switched_off``.
+
+        >>> import dataclasses
+        >>> scene = kinefab.Scene()
+        >>> hinge = scene.add_hinge(None, scene.add_part("Door"), point=(0, 0, 0), axis=(0, 1, 0))
+        >>> scene.joints[0] = dataclasses.replace(scene.joints[0], enabled=False)
+        >>> apart = scene.with_disabled_apart()
+        >>> len(apart.joints), len(apart.switched_off)
+        (0, 1)
+        """
+        off = [joint for joint in self.joints if not joint.enabled]
+        if not off:
+            return self
+        on = [joint for joint in self.joints if joint.enabled]
+        return replace(self, joints=on, switched_off=[*self.switched_off, *off])
 
     def with_poses(self, poses: Sequence[Pose]) -> Scene:
         """The same scene with other node poses (same order as ``nodes``).

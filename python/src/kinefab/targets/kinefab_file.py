@@ -27,6 +27,7 @@ from ..unity.counting import with_led_joints_on_light_bodies
 from ..unity.joints.passive import withdraw_stated
 from ..unity.links.tree import articulated
 from ..unity.scene import BodyFreedom, Component, Coupling, GameObject, Joint, Mobility, UnityScene
+from ..unity.switched_off import without_switched_off
 from .content import Content
 from .noun_entry import Noun, entry, needs_newer, newer_keys, unsaid
 from .numbers import plain_value, significant, whole_numbers
@@ -106,7 +107,10 @@ def _write_in_one(
 def _in_unity(content: Content) -> UnityScene:
     """In Unity's terms, as the format can say them; by links where that is asked for."""
     links = content.options.get("physics") == "articulation"
-    scene = with_led_joints_on_light_bodies(content.unity(links))
+    scene = content.unity(links)
+    if links:
+        scene = without_switched_off(scene, "an articulation", content.report)
+    scene = with_led_joints_on_light_bodies(scene)
     if not links:
         for joint in content.scene.joints:  # a scene has fields for what no joint of Unity's has
             withdraw_stated(joint, content.report)

@@ -33,7 +33,7 @@ def bars(objects: Sequence[Mapping[str, Any]]) -> list[Bar]:
                 at = world_points(component.get("anchorPosition", (0, 0, 0)), placements[index])
                 for body in (index, linked):
                     points.setdefault(body, []).append(at)
-            if component["type"] not in JOINTS:
+            if component["type"] not in JOINTS or not component.get("enabled", True):
                 continue
             at = world_points(component.get("anchor", (0, 0, 0)), placements[index])
             points.setdefault(index, []).append(at)

@@ -51,6 +51,7 @@ def describe(scene: Mapping[str, Any]) -> dict[str, Any]:
                         "freedoms": freedoms_of_component(component, index, placements),
                         "closure": component.get("closure", False),
                         "exact": component.get("exact", True),
+                        "enabled": component.get("enabled", True),
                         "because": component.get("because", []),
                     }
                 )
@@ -99,6 +100,7 @@ def render(description: Mapping[str, Any]) -> str:
     for joint in description["joints"]:
         freedoms = ", ".join(joint["freedoms"]) or "fixed"
         marks = (", closes a loop" if joint["closure"] else "") + ("" if joint["exact"] else ", approximated")
+        marks += "" if joint["enabled"] else ", switched off"
         name = f"{joint['name']}: " if joint["name"] else ""
         lines.append(
             f"  {name}{joint['object']} -> {joint['connected'] or 'world'}: {joint['type']}, {freedoms}{marks}"

@@ -92,7 +92,7 @@ def drawn_joints(objects: Sequence[Mapping[str, Any]], placements: Sequence[Plac
     for index, item in enumerate(objects):
         rotation, _, _ = placements[index]
         for component in item.get("components", []):
-            if component["type"] not in COLOURS:
+            if component["type"] not in COLOURS or not component.get("enabled", True):
                 continue
             axis = np.array(component.get("axis", [1, 0, 0]), float)
             second = np.array(component.get("secondaryAxis", [0, 1, 0]), float)

@@ -125,6 +125,30 @@ public class CommandLineTests
     }
 
     [Test]
+    public void Inspect_SeveralJointsOfOneObject_TellsThemApart()
+    {
+        string path = Path.Combine(TestContext.CurrentContext.WorkDirectory, "pair.kinefab");
+        File.WriteAllText(
+            path,
+            """
+            {"format": "kinefab.scene", "version": "1.1",
+             "gameObjects": [{"id": "Base", "name": "Base", "components": [{"type": "Rigidbody"}]},
+                             {"id": "Link", "name": "Link", "components": [{"type": "Rigidbody"}, {"type": "HingeJoint", "connectedBody": 0}, {"type": "HingeJoint", "connectedBody": 0, "axis": [0, 1, 0]}]},
+                             {"id": "Lid", "name": "Lid", "components": [{"type": "Rigidbody"}, {"type": "HingeJoint", "connectedBody": 0}, {"type": "FixedJoint", "connectedBody": 0, "enabled": false}]}],
+             "couplings": [{"kind": "gear", "a": {"gameObject": 1, "component": 2, "coordinate": "angle"}, "b": {"gameObject": 1, "component": 1, "coordinate": "angle"}, "ratio": 2}]}
+            """);
+        string data = Run("inspect", path).Data;
+        using (Assert.EnterMultipleScope())
+        {
+            Assert.That(data, Does.Contain("HingeJoint Link[1] - Base: angle free").And.Contain("HingeJoint Link[2] - Base: angle free"));
+            Assert.That(data, Does.Contain("Link[1].angle = 2 * Link[2].angle"));
+            Assert.That(data, Does.Contain("HingeJoint Lid - Base").And.Contain("FixedJoint Lid[2] - Base: nothing free, switched off"));
+        }
+
+        Assert.That(Run("inspect", path, "--json").Data.Split("\"enabled\": false"), Has.Length.EqualTo(2));
+    }
+
+    [Test]
     public void Inspect_Json_HoldsTheSummary()
     {
         (_, string data, _) = Run("inspect", Described, "--json");

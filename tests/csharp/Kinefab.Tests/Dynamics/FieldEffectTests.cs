@@ -40,6 +40,7 @@ public sealed class FieldEffectTests
         ["Rigidbody.interpolation"] = "what is drawn, not what moves",
         ["physics.bounceThreshold"] = "contacts alone bounce by it",
         ["physics.fixedTimestep"] = "the caller steps",
+        ["enabled"] = "a joint that is switched off is none: DisabledJointTests",
         ["id"] = "information",
         ["name"] = "information",
         ["effort"] = "information, told by JOINT_STATED_UNFOLLOWED",

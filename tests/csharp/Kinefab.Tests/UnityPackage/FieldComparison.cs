@@ -13,7 +13,7 @@ namespace Kinefab.Tests.UnityPackage;
 /// <summary>Holds each field of the format against Unity's member of that name; a field without one is a fault.</summary>
 internal sealed class FieldComparison
 {
-    // What of the format is about the source, not for Unity.
+    // What of the format is about the source, not for Unity. A joint that is not enabled is none there.
     private static readonly HashSet<string> AboutTheSource = [nameof(Joint.Id), nameof(Joint.Name), nameof(Collider.Group), nameof(AnchoredJoint.Effort), nameof(AnchoredJoint.Speed), nameof(AnchoredJoint.Friction), nameof(AnchoredJoint.Armature), nameof(Joint.Because), nameof(Joint.Closure), nameof(Joint.Exact), nameof(DocumentObject.ExtrasJson)];
 
     // What Unity calls otherwise.
@@ -34,7 +34,7 @@ internal sealed class FieldComparison
 
     private void Same(object from, object standard, object to, string at)
     {
-        foreach (PropertyInfo field in from.GetType().GetProperties(BindingFlags.Public | BindingFlags.Instance).Where(p => !AboutTheSource.Contains(p.Name)))
+        foreach (PropertyInfo field in from.GetType().GetProperties(BindingFlags.Public | BindingFlags.Instance).Where(p => !AboutTheSource.Contains(p.Name) && !(p.Name == nameof(Joint.Enabled) && p.DeclaringType == typeof(Joint))))
         {
             string name = char.ToLowerInvariant(field.Name[0]) + field.Name[1..];
             object? value = field.GetValue(from);

@@ -103,6 +103,21 @@ public sealed class UnityImportTests
         Assert.That((Unity.Physics.defaultSolverIterations, Unity.Physics.defaultSolverVelocityIterations), Is.EqualTo((12, 3)));
     }
 
+    [Test]
+    public void Import_JointsSwitchedOff_AreLeftOutAndTold()
+    {
+        var findings = new List<KinefabFinding>();
+        var builder = new SceneBuilder(ValidScene.Load(Path.Combine(ConformanceCases.Folder, "valid", "hinge", "switched_off.kinefab")), new KinefabSettings(), findings);
+        builder.Build("Scene", null!);
+
+        Assert.That(builder.Objects[1].Components.OfType<Unity.Joint>().Count(), Is.EqualTo(1));
+        Assert.That(findings.Where(f => f.code == "JOINT_DISABLED_DROPPED").Select(f => f.message), Is.EqualTo([
+            "Joint Latch:2 is switched off, and Unity has no place for such a joint; it is left out.",
+            "Joint Latch:1 is switched off, and Unity has no place for such a joint; it is left out.",
+        ]));
+        Assert.That(findings.Where(f => f.code.StartsWith("UNITY_COUPLING", StringComparison.Ordinal) || f.code == "COUPLING_WITHOUT_JOINT").Select(f => f.code), Is.EqualTo(["COUPLING_WITHOUT_JOINT"]));
+    }
+
     private static Unity.GameObject[] Import(ValidScene scene, Unity.Transform? parent = null)
     {
         var builder = new SceneBuilder(scene, new KinefabSettings(), []);
@@ -125,8 +140,8 @@ public sealed class UnityImportTests
             Assert.That(to.Components.OfType<Unity.Rigidbody>().Any(b => b.MovedAfterMade), Is.False, "PhysX would have made it at another place");
             comparison.Same(from.Transform, to.transform, from.Id);
 
-            // The transform comes first, then the body; all else stands in the file's order, colliders without size left out.
-            Component[] expected = [.. from.Components.Where(c => c is Rigidbody or ArticulationBody), .. from.Components.Where(c => c is not (Rigidbody or ArticulationBody or Collider) || (c is Collider collider && !ColliderFields.IsEmpty(collider)))];
+            // The transform comes first, then the body; all else stands in the file's order, colliders without size and joints that are switched off left out.
+            Component[] expected = [.. from.Components.Where(c => c is Rigidbody or ArticulationBody), .. from.Components.Where(c => c is not (Rigidbody or ArticulationBody or Collider or Joint { Enabled: false }) || (c is Collider collider && !ColliderFields.IsEmpty(collider)))];
             Assert.That(to.Components.Skip(1).Where(c => c is not KinefabCoupling).Select(c => c.GetType().Name), Is.EqualTo(expected.Select(c => c.GetType().Name)));
             for (int c = 0; c < expected.Length; c++)
                 comparison.Same(expected[c], to.Components[c + 1], $"{from.Id} {expected[c].GetType().Name}");

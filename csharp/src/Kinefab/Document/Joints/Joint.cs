@@ -18,6 +18,10 @@ public abstract record Joint : Component
     [Since(1)]
     public string? Name { get; init; }
 
+    /// <summary>False: the source has it and switches it off; it holds nothing, as if it were not there. No joint of Unity's can be so.</summary>
+    [Since(1)]
+    public bool Enabled { get; init; } = true;
+
     /// <summary>Index of the GameObject whose Rigidbody is connected; null: the world.</summary>
     public int? ConnectedBody { get; init; }
 

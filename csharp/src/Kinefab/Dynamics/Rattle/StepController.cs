@@ -32,6 +32,9 @@ internal sealed class StepController
     // Largest growth of the energy in a step, springs included, where scalar rows may take any amount.
     private const double MostEnergyGain = 0.005;
 
+    // Of what energy may grow by in a step, the share that is a part's from the start on; the rest comes with the time.
+    private const double EarlyShare = 0.25;
+
     private readonly LaneBatch<ScalarLane> _batch;
     private readonly ConjugateGradient _exact;
     private readonly Substep _part;
@@ -48,6 +51,7 @@ internal sealed class StepController
     private bool _isAudited;
     private EnergyAudit _energy;
     private double _dt;
+    private double _elapsed;
     private double _tolerance;
 
     public StepController(LaneBatch<ScalarLane> batch)
@@ -127,6 +131,7 @@ internal sealed class StepController
         _part.Tries = 0;
         _tolerance = tolerance;
         _failures = 0;
+        _elapsed = 0;
         _dampedInStep = 0;
         _part.IsEager = false;
         _isAudited = EnergyAudit.IsKnown(_batch);
@@ -149,10 +154,9 @@ internal sealed class StepController
         _start.Save(_batch);
         Audit(dt);
         _dt = dt;
-        while (!TrySubsteps(dt, halvings, tolerance) || !IsEnergyKept(halvings))
+        while (!TrySubsteps(dt, halvings, tolerance) || !IsEnergyKept(halvings, dt))
         {
-            _start.Restore(_batch);
-            _part.Begin(dt);
+            Return(_start, dt);
             bool wasEager = _part.IsEager;
             _part.IsEager = true;
             if (!hasSettled)
@@ -223,10 +227,12 @@ internal sealed class StepController
     }
 
     // At the finest even parts a violent motion without scalar rows may lose energy: nothing below these is better.
-    private bool IsEnergyKept(int halvings)
+    private bool IsEnergyKept(int halvings, double h)
     {
+        // A gain is a part's own to mend, not that of the part after it.
+        double share = EarlyShare + (1 - EarlyShare) * (_elapsed + h) / _dt;
         bool mayLose = _batch.ActiveSet != null || halvings >= MaxHalvings;
-        return !_isAudited || new EnergyAudit(_batch, _dt, _tolerance).IsKept(_energy, mayLose, mayLose ? MostEnergyGain : MostEnergyChange);
+        return !_isAudited || new EnergyAudit(_batch, _dt, _tolerance).IsKept(_energy, mayLose, share * (mayLose ? MostEnergyGain : MostEnergyChange));
     }
 
     private bool TrySubsteps(double dt, int halvings, double tolerance)
@@ -254,53 +260,58 @@ internal sealed class StepController
 
     private void Halve(double h, int depth, double tolerance)
     {
-        if (_dampedInStep == MaxDampedSteps)
-        {
-            Damp();
-            return;
-        }
-
         Snapshot start = _substepStarts[depth];
         _part.SetLength(h);
         start.Save(_batch);
-        if (_part.TryRattle(h, tolerance) && IsEnergyKept(depth))
+        bool isHopeless = _dampedInStep == MaxDampedSteps;
+        if (!isHopeless && _part.TryRattle(h, tolerance) && IsEnergyKept(depth, h))
         {
+            _elapsed += h;
             return;
         }
 
-        start.Restore(_batch);
-        _part.Begin(h);
-        if (depth < MaxDepth && _failures++ < MaxFailures)
+        if (!isHopeless && depth < MaxDepth && _failures++ < MaxFailures)
         {
+            Return(start, h);
             Halve(h / 2, depth + 1, tolerance);
             Halve(h / 2, depth + 1, tolerance);
             _part.SetLength(h);
             return;
         }
 
-        if (_part.TryImplicitEuler(h, tolerance) && IsEnergyKept(depth))
+        if (isHopeless || !TryFallback(start, h, depth, tolerance))
         {
-            return;
+            if (_dampedInStep == 0)
+            {
+                MeasureWorstResidual(tolerance);
+                start.Restore(_batch);
+                FindTroubles(tolerance);
+            }
+
+            Return(start, h);
+            _dampedInStep += isHopeless ? 0 : 1;
+            Damp();
         }
 
+        _elapsed += h;
+    }
+
+    private bool TryFallback(Snapshot start, double h, int depth, double tolerance)
+    {
+        Return(start, h);
+        if (_part.TryImplicitEuler(h, tolerance) && IsEnergyKept(depth, h))
+        {
+            return true;
+        }
+
+        Return(start, h);
+        return _part.TryProjected(h, tolerance, _isAudited ? _energy : null) && IsEnergyKept(depth, h);
+    }
+
+    private void Return(Snapshot start, double h)
+    {
         start.Restore(_batch);
         _part.Begin(h);
-        if (_part.TryProjected(h, tolerance) && IsEnergyKept(depth))
-        {
-            return;
-        }
-
-        if (_dampedInStep == 0)
-        {
-            MeasureWorstResidual(tolerance);
-            start.Restore(_batch);
-            FindTroubles(tolerance);
-        }
-
-        start.Restore(_batch);
-        _part.Begin(h);
-        _dampedInStep++;
-        Damp();
     }
 
     // The poses stay for this substep and the motion slows down, so that a state that no method can leave comes to rest.

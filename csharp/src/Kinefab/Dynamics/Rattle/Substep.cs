@@ -167,7 +167,10 @@ internal sealed class Substep
     }
 
     /// <summary>A <see cref="ProjectedStep"/> from the start pose; energy that closing the end pose gave is taken from the speeds.</summary>
-    public bool TryProjected(double h, double tolerance)
+    /// <param name="h">Length, s.</param>
+    /// <param name="tolerance">Largest C, m or rad.</param>
+    /// <param name="since">What energy may not have grown since; null: the part's start.</param>
+    public bool TryProjected(double h, double tolerance, EnergyAudit? since)
     {
         if (!IsExact)
         {
@@ -180,7 +183,7 @@ internal sealed class Substep
         }
 
         bool isKnown = EnergyAudit.IsKnown(_batch);
-        EnergyAudit before = isKnown ? new EnergyAudit(_batch, h, tolerance) : default;
+        EnergyAudit before = since ?? (isKnown ? new EnergyAudit(_batch, h, tolerance) : default);
         if (!_projected.TrySolve(h, tolerance))
         {
             return false;

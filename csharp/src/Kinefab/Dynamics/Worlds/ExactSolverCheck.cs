@@ -18,7 +18,7 @@ internal static class ExactSolverCheck
         {
             for (int c = 0; c < objects[i].Components.Count; c++)
             {
-                if (objects[i].Components[c] is Joint joint && (joint.MassScale != 1 || joint.ConnectedMassScale != 1))
+                if (objects[i].Components[c] is Joint { Enabled: true } joint && (joint.MassScale != 1 || joint.ConnectedMassScale != 1))
                 {
                     found.Add(Ignored(joint, $"/gameObjects/{Text(i)}/components/{Text(c)}"));
                 }

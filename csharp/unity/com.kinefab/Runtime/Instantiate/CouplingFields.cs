@@ -35,19 +35,26 @@ namespace KinefabUnity
         {
             foreach (Doc.Coupling from in scene.Document.Couplings)
             {
+                string name = from.Id ?? objects[from.B.GameObject].name;
                 bool isKept = IsKept(from.B);
+                Doc.JointCoordinate off = IsOff(from.B) ? from.B : null;
                 foreach (Doc.CouplingTerm term in from.Followed)
                 {
                     isKept &= IsKept(term.Coordinate);
+                    off = IsOff(term.Coordinate) ? term.Coordinate : off;
                 }
 
                 if (isKept)
                 {
                     Set(objects[from.B.GameObject].AddComponent<KinefabCoupling>(), from);
                 }
+                else if (off != null)
+                {
+                    findings.Add(KinefabFinding.Of("COUPLING_WITHOUT_JOINT", name, ("coupling", name), ("joint", scene.Joint(off).Id ?? objects[off.GameObject].name)));
+                }
                 else
                 {
-                    findings.Add(KinefabFinding.Of("UNITY_COUPLING_NOT_IN_PHYSICS", from.Id ?? objects[from.B.GameObject].name, ("coupling", from.Id ?? objects[from.B.GameObject].name)));
+                    findings.Add(KinefabFinding.Of("UNITY_COUPLING_NOT_IN_PHYSICS", name, ("coupling", name)));
                 }
             }
         }
@@ -76,6 +83,8 @@ namespace KinefabUnity
         private bool IsKept(Doc.JointCoordinate at) =>
             made.TryGetValue(Place(at), out Component found)
             && (!(found is ArticulationBody link) || link.jointType == ArticulationJointType.RevoluteJoint || link.jointType == ArticulationJointType.PrismaticJoint);
+
+        private bool IsOff(Doc.JointCoordinate at) => !scene.Joint(at).Enabled;
 
         // It counts in the world's metres.
         private float Length(Doc.JointCoordinate at) => at.Coordinate >= Doc.Coordinate.X && at.Coordinate <= Doc.Coordinate.Z ? scale : 1;

@@ -269,6 +269,9 @@ namespace KinefabUnity
                     break;
                 case Doc.Joint _ when settings.physics == KinefabPhysics.None:
                     break;
+                case Doc.Joint { Enabled: false } off:
+                    findings.Add(KinefabFinding.Of("JOINT_DISABLED_DROPPED", id, ("joint", off.Id ?? id), ("target", "Unity")));
+                    break;
                 case Doc.HingeJoint hinge:
                     joints.Set(Made<HingeJoint>(index, place), hinge);
                     break;

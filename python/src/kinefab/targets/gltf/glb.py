@@ -318,6 +318,9 @@ class _Document:
 
     def _add_joints(self) -> None:
         groups = self.content.groups
+        for joint in self.scene.switched_off:
+            told = {"joint": joint.id, "target": ".glb"}
+            self.report.dropped(f"joint {joint.id}", "JOINT_DISABLED_DROPPED", joint.where, **told)
         for joint in self.scene.joints:
             if groups.together(joint.a, joint.b):
                 self.report.kept(f"joint {joint.id}", joint.where)

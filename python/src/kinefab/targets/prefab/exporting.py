@@ -17,6 +17,7 @@ from ...unity.scene import (
     Rigidbody,
     UnityScene,
 )
+from ...unity.switched_off import without_switched_off
 from ..content import Content
 from ..tangents import normal_mapped, with_tangents
 from .assets.clips import CLIP_ID, clip_asset
@@ -27,7 +28,7 @@ from .assets.physics_materials import PHYSICS_MATERIAL_ENDING, PHYSICS_MATERIAL_
 from .assets.textures import TextureFile, Textures, reference, shown, twins_of
 from .files import AssetFile
 from .last import GUID, NOTHING, LastExport
-from .losses import empty_colliders, tell_couplings, tell_losses, tell_names
+from .losses import TARGET, empty_colliders, tell_couplings, tell_losses, tell_names
 from .meshes import mesh_name, mesh_origin
 from .names import file_name, folded, most_bytes, unique
 from .objects.couplings import ASSEMBLY, FOLDER, SCRIPT, is_kept_by_script, script_guid
@@ -77,7 +78,7 @@ class _Export:
     ):
         self.scripts_folder, self.identity = scripts_folder, identity or name
         self.content, self.name, self.options = content, name, options
-        self.scene = content.unity(links=options.articulation)
+        self.scene = without_switched_off(content.unity(links=options.articulation), TARGET, content.report)
         if options.articulation:
             stated = {joint.id: joint for joint in content.scene.joints}
             self.scene = articulated(self.scene, stated, content.report)

@@ -98,6 +98,15 @@ class Stage:
             return True
         return False
 
+    def _is_between_bodies(self, joint: Joint) -> bool:
+        """Of a joint that is switched off; the report tells of one that is not."""
+        groups = self.content.groups
+        if groups.without_body(joint) is None and not groups.together(joint.a, joint.b):
+            return True
+        told = {"joint": joint.id, "target": "one rigid body"}
+        self.content.report.dropped(f"joint {joint.id}", "JOINT_DISABLED_DROPPED", joint.where, **told)
+        return False
+
     def _metadata(self, root: Prim) -> None:
         head = self.layer.pseudoRoot
         for key, value in (("upAxis", "Y"), ("metersPerUnit", 1.0), ("kilogramsPerUnit", 1.0)):
@@ -179,6 +188,7 @@ class Stage:
                 members_of.setdefault(inside, []).append(i)
         for ground in bodies.grounded:
             write_grounded(self.prims[ground], scene, ground, tuple(members_of[ground]), report)
+        joints = [*joints, *filter(self._is_between_bodies, scene.switched_off)]
         named = sibling_names([(joint.name or joint.id, joint.id) for joint in joints])
         scope.reserve(named)
         top = next((i for i, prim in enumerate(self.prims) if prim is root), None)
@@ -191,7 +201,9 @@ class Stage:
         fixed = tuple(edges)
         writer = Joints(scene, bodies, scope, places, report, self.target)
         for joint, name in zip(joints, named):
-            edges.append(writer.begin(joint, name, content.findings.get(joint.id)))
+            edge = writer.begin(joint, name, content.findings.get(joint.id))
+            if joint.enabled:
+                edges.append(edge)
         kinematic = {i for i in bodies.moving.carriers if not bodies.dynamic(i)}
         base = edges[0].prim if bodies.grounded else None
         trees = mark_articulations(edges, kinematic.__contains__, self.prims.__getitem__, base)

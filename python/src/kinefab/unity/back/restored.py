@@ -109,6 +109,7 @@ class Restored:
 
     node_of: for each GameObject the node that it moves with.  poses: of the GameObjects, scales their sizes, WORLD.
     joints: the joint of each component, by (GameObject, component).
+    switched_off: of those that hold nothing, which the scene leaves out, and ``idle`` the couplings that count by them.
     """
 
     scene: Scene
@@ -116,6 +117,8 @@ class Restored:
     poses: Sequence[Pose]
     scales: Sequence[Array]
     joints: Mapping[tuple[int, int], Joint]
+    switched_off: Mapping[tuple[int, int], Joint]
+    idle: Sequence[Coupling]
 
 
 def restored(document: Entry) -> Restored:
@@ -130,26 +133,32 @@ def restored(document: Entry) -> Restored:
     reading = _Reading(document)
     joints: list[Joint] = []
     place: dict[tuple[int, int], Joint] = {}
+    off: dict[tuple[int, int], Joint] = {}
     for index, entry in enumerate(reading.objects):
         components: Sequence[Entry] = entry.get("components", ())
         held = reading.above[index] is not None
         own = [
             i for i, c in enumerate(components) if c["type"].endswith("Joint") or (held and c["type"] == LINK)
         ]
+        several = sum(components[i].get("enabled", True) for i in own) > 1
         for i in own:
             if not reading.active[index] or reading.node_of[index] == 0:
                 continue
-            name = entry["id"] + (f"[{i}]" if len(own) > 1 else "")
+            name = entry["id"] + (f"[{i}]" if several or not components[i].get("enabled", True) else "")
             joint = _joint(name, components[i], index, reading)
-            if joint.a != joint.b:
+            if joint.a != joint.b and joint.enabled:
                 joints.append(joint)
                 place[index, i] = joint
+            elif joint.a != joint.b:
+                off[index, i] = joint
     source = Source(str(document.get("source", {}).get("uri", "")))
     scene = Scene(nodes=reading.nodes, joints=joints, source=source)
+    idle: list[Coupling] = []
+    counted = {joint.id for joint in joints}
     for i, entry in enumerate(document.get("couplings", ())):
-        if (coupling := _coupling(entry, f"coupling:{i}", place, reading, scene)) is not None:
-            scene.couplings.append(coupling)
-    return Restored(scene, reading.node_of, reading.poses, reading.scales, place)
+        if (coupling := _coupling(entry, f"coupling:{i}", place | off, reading, scene)) is not None:
+            (scene.couplings if coupling.joints <= counted else idle).append(coupling)
+    return Restored(scene, reading.node_of, reading.poses, reading.scales, place, off, idle)
 
 
 def _link_joint(name: str, link: Entry, index: int, reading: _Reading) -> Joint:
@@ -213,6 +222,7 @@ def _joint(name: str, component: Entry, index: int, reading: _Reading) -> Joint:
         name, kind, a, b, frame_a, frame_b, freedoms, own,
         break_force=force,
         break_torque=torque,
+        enabled=bool(component.get("enabled", True)),
         collide=bool(component.get("enableCollision", False)),
         closes=bool(component.get("closure", False)),
         slerp=slerp_of(component),

@@ -146,7 +146,7 @@ class _Nodes:
         nodes = [self._node(index) for index in self.node_of]
         joints = self._joints()
         ids = {joint.id for joint in joints}
-        couplings = [c for c in self.back.scene.couplings if c.joints <= ids]
+        couplings = [c for c in (*self.back.scene.couplings, *self.back.idle) if c.joints <= ids]
         joints, couplings = self._named(joints, couplings)
         extras = {key: value for key, value in written.extras.items() if key != "ignoreCollision"}
         source, physics = written.source, written.physics
@@ -277,7 +277,7 @@ class _Nodes:
         index_of = {entry.id: index for index, entry in enumerate(self.objects)}
         carrier = [None if i == 0 else index_of[node.id] for i, node in enumerate(self.back.scene.nodes)]
         found: list[Joint] = []
-        for (index, k), joint in self.back.joints.items():
+        for (index, k), joint in (self.back.joints | self.back.switched_off).items():
             if APART in getattr(self.objects[index].components[k], "extras", {}):
                 continue
             ends = [(joint.a or 0, joint.frame_a), (joint.b or 0, joint.frame_b)]
@@ -290,7 +290,7 @@ class _Nodes:
         self, joints: Sequence[Joint], couplings: Sequence[Coupling]
     ) -> tuple[list[Joint], list[Coupling]]:
         """By the source's own ids, where the file tells them: by those other targets and the report name them."""
-        place = {joint.id: at for at, joint in self.back.joints.items()}
+        place = {joint.id: at for at, joint in (self.back.joints | self.back.switched_off).items()}
         told = {
             joint.id: str(getattr(self.objects[place[joint.id][0]].components[place[joint.id][1]], "id", ""))
             for joint in joints

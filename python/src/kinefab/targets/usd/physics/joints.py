@@ -177,7 +177,11 @@ class Joints:
             prim.numbers({"physics:breakTorque": joint.break_torque})
         if joint.collide:
             prim.attribute("physics:collisionEnabled", "Bool", True)
-        self.report.kept(f"joint {joint.id}", joint.where)
+        if joint.enabled:
+            self.report.kept(f"joint {joint.id}", joint.where)
+        else:
+            prim.attribute("physics:jointEnabled", "Bool", False)
+            self.report.kept(f"joint {joint.id}", joint.where, "JOINT_DISABLED", joint=joint.id)
         names = {shape.name_of[i]: DOFS[i] for i in free}
         self.written[joint.id] = WrittenJoint(prim, names, len(free) == 1)
 

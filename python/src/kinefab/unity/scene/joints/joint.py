@@ -17,7 +17,8 @@ class Joint:
     connectedBody: index of the GameObject of the other body, None for the world.
     breakForce, breakTorque: newtons, newton metres; infinite: unbreakable.
     because: ids of the source's constraints or joints that it comes from.  closure: it closes a loop.
-    exact: it moves just as the source's.  id: of the joint in the source, "" for one that holds a rigid group together.  name: the user's own.
+    exact: it moves just as the source's.  enabled: False where it is switched off and holds nothing, which no joint of Unity's can be.
+    id: of the joint in the source, "" for one that holds a rigid group together.  name: the user's own.
     """
 
     connectedBody: int | None = None
@@ -32,6 +33,7 @@ class Joint:
     exact: bool = True
     id: str = ""
     name: str = ""
+    enabled: bool = True
     extras: Mapping[str, object] = field(default_factory=dict[str, object])
 
 

@@ -21,14 +21,23 @@ SETTINGS = {
 }
 MORE = sorted(
     path
-    for path in (*(FIXTURES / "lever").glob("lever*.*"), *(FIXTURES / "freecad").glob("*.FCStd"), *(FIXTURES / "freecad").glob("*.asmt"))
-    if not path.name.endswith((".kinefab", ".bundle.json")) and format_of(path) is not None
+    for path in (
+        *(FIXTURES / "lever").glob("lever*.*"),
+        *(FIXTURES / "lever" / name for name in ("simscape/lever.xml", "gallery/assembly.json", "onshape/definition.json")),
+        *(FIXTURES / "freecad").glob("*.FCStd"),
+        *(FIXTURES / "freecad").glob("*.asmt"),
+        *(FIXTURES / "mjcf").glob("*.xml"),
+        *(FIXTURES / "twins").glob("*.*"),
+    )
+    if not path.name.endswith(".kinefab") and format_of(path) is not None
 )
-"""The lever by other roads: robots' trees, names and drives; FreeCAD's documents and its solver's assemblies."""
+"""The lever, an arm and a four-bar by other roads: robots' trees, names and drives; FreeCAD's documents and its solver's assemblies."""
 CLIPS = FIXTURES.parent / "tests" / "conformance" / "valid" / "animation"
 """Scenes, which are sources too."""
 LINKS = kinefab.ExportOptions(writing={"physics": "articulation"})
 PIPELINES = ("builtin", "urp", "hdrp")
+LAYERS = ("Default", "TransparentFX", "Ignore Raycast", "", "Water", "UI", "", "", "Scenery")
+"""Of the project that exports with looks stand in; its one tag is Ground."""
 LOOKS = CLIPS.parent / "look" / "textured.kinefab"
 
 
@@ -41,6 +50,15 @@ def looks(folder: Path) -> dict[str, object]:
     return {"Rich": replace(scene, surfaces=[replace(surface, **plain) for surface in scene.surfaces])}
 
 
+def make_project(folder: Path) -> Path:
+    """The Assets of a project with layers and tags of its own."""
+    lines = ["%YAML 1.1", "TagManager:", "  tags:", "  - Ground", "  layers:", *(f"  - {word}" for word in LAYERS)]
+    settings = folder / "ProjectSettings" / "TagManager.asset"
+    settings.parent.mkdir(parents=True)
+    settings.write_text("\n".join(lines) + "\n", "utf-8")
+    return folder / "Assets"
+
+
 def main(folder: Path, kind: str) -> int:
     sources: dict[str, object] = {source.name.partition(".")[0]: source for source, _ in golden_pairs()}
     options, writing = SETTINGS.get(kind, SETTINGS["body"]), {"scripts": True}
@@ -51,6 +69,7 @@ def main(folder: Path, kind: str) -> int:
         sources = {scene.stem: scene for scene in sorted(CLIPS.glob("*.kinefab"))}
     elif kind in PIPELINES:
         sources, writing = looks(folder), {"pipeline": kind, "scripts": True}
+        folder = make_project(folder)
     elif kind == "body":
         sources |= {f"{path.parent.name} {path.name}": path for path in MORE}
     for stem, source in sources.items():

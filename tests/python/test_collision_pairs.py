@@ -360,3 +360,34 @@ def test_each_robot_passes_its_own_base_alone_when_read_again(tmp_path: Path):
     kinefab.export(tmp_path / "robots.kinefab", tmp_path / "bare.kinefab", kinefab.ExportOptions(closures="minimal"))
     assert touching(tmp_path / "again.kinefab") == BETWEEN_ROBOTS
     assert touching(tmp_path / "bare.kinefab") == BETWEEN_ROBOTS
+
+
+def mated_base(grounded: bool, planes: int) -> kinefab.Scene:
+    """An arm on the first of three boxes in a row, of which planes hold each to the one before; a fourth stands far away.
+
+    grounded: whether each of them is fixed to the ground by itself too."""
+    scene, box = kinefab.Scene(), trimesh.creation.box((0.1, 0.1, 0.1))
+    row = [
+        scene.add_part(name, box, translation=(0.3 * i, 0, 0), grounded=grounded or i == 0)
+        for i, name in enumerate(("Foot", "Column", "Head"))
+    ]
+    scene.add_part("Far", box, translation=(5, 0, 0), grounded=True)
+    for i, (one, other) in enumerate(zip(row, row[1:])):
+        for normal in np.eye(3)[:planes]:
+            at = (0.3 * i + 0.15, 0, 0)
+            sides = (scene.plane(part, point=at, normal=tuple(normal)) for part in (one, other))
+            scene.add_constraint("coincident", *sides)
+    scene.add_hinge(row[0], scene.add_part("Arm", box, translation=(0, 0.05, 0)), point=(0, 0, 0), axis=(0, 0, 1))
+    return scene
+
+
+@pytest.mark.parametrize("grounded", [False, True])
+def test_parts_that_mates_hold_together_are_one_base(tmp_path: Path, grounded: bool):
+    kinefab.export(mated_base(grounded, planes=3), tmp_path / "a.kinefab")
+    assert touching(tmp_path / "a.kinefab") == pairs(("Arm", "Far"))
+
+
+def test_parts_that_mates_leave_a_slide_are_bases_of_their_own(tmp_path: Path):
+    """A machine that stands on the floor, each fixed to the ground by itself: the floor is no part of the machine."""
+    kinefab.export(mated_base(True, planes=2), tmp_path / "a.kinefab")
+    assert touching(tmp_path / "a.kinefab") == pairs(("Arm", "Far"), ("Arm", "Column"), ("Arm", "Head"))

@@ -65,6 +65,7 @@ FLOORS: dict[str, list[set[str]]] = {
     ],
     "targets/prefab": [
         {"text", "files", "names", "manifest", "last"},
+        {"layers"},
         {"options", "assets", "objects", "moment", "meshes"},
         {"losses", "project"},
         {"folder", "exporting"},

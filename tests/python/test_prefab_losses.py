@@ -51,8 +51,8 @@ def test_what_is_told_as_lost_is_not_told_as_kept_too(tmp_path, writing):
 
 def test_layers_tags_and_what_2021_has_no_place_for(tmp_path):
     found = told(exported(rich_scene(tmp_path), tmp_path, unity="2021"))
-    assert ("layer Scenery of Top/Base", "TARGET_FIELD_DROPPED") in found
-    assert ("tag Ground of Top/Base", "TARGET_FIELD_DROPPED") in found
+    assert ("layer Scenery of Top/Base", "TARGET_LAYER_OF_PROJECT") in found
+    assert ("tag Ground of Top/Base", "TARGET_TAG_OF_PROJECT") in found
     assert ("centre of mass and inertia of Top/Arm:1", "TARGET_MASS_DROPPED") in found
     assert ("doubleSided of material Glass", "TARGET_FIELD_DROPPED") in found  # Standard has no other side
     later = told(exported(rich_scene(tmp_path), tmp_path, pipeline="urp"))
@@ -69,11 +69,87 @@ def test_layers_tags_and_what_2021_has_no_place_for(tmp_path):
     assert not (tmp_path / "S.prefab").exists()
 
 
+TAG_MANAGER = """%YAML 1.1
+%TAG !u! tag:unity3d.com,2011:
+--- !u!78 &1
+TagManager:
+  serializedVersion: 2
+  tags:
+  - Ground
+  - 'It''s: "odd"'
+  layers:
+  - Default
+  - TransparentFX
+  - Ignore Raycast
+  -
+  - Water
+  - UI
+  -
+  -
+  - "Pass\\xE9 & co"
+  - Scenery
+  -
+  m_SortingLayers:
+  - name: Default
+    uniqueID: 0
+    locked: 0
+"""
+
+
+def project(folder: Path, tags: str = TAG_MANAGER) -> Path:
+    """The Assets of a Unity project with these layers and tags."""
+    (folder / "ProjectSettings").mkdir()
+    (folder / "ProjectSettings" / "TagManager.asset").write_text(tags, "utf-8")
+    (folder / "Assets").mkdir()
+    return folder / "Assets" / "Rich.prefab"
+
+
+def words(prefab: Path) -> dict[str, tuple[int, str]]:
+    """Layer and tag of each object, by name."""
+    found = [d.fields for d in documents(prefab.read_text("utf-8")) if d.kind == "GameObject"]
+    return {str(o["m_Name"]): (int(o["m_Layer"]), o["m_TagString"]) for o in found}
+
+
+def test_layers_and_tags_are_the_projects(tmp_path):
+    """By the list of the project that the prefab stands in; outside any the tag is kept by its word, which is told."""
+    result = kinefab.export(rich_scene(tmp_path), project(tmp_path))
+    assert words(result.path)["Base"] == (9, "Ground")
+    assert {o for o in words(result.path).values()} == {(9, "Ground"), (0, "Untagged")}
+    assert not any(feature.startswith(("layer", "tag")) for feature, _ in told(result))
+    assert words(exported(rich_scene(tmp_path), tmp_path).path)["Base"] == (0, "Ground")
+
+
+@pytest.mark.parametrize("word", ["Scenery", "Water", "Pass\xe9 & co", "Default"])
+def test_a_layer_of_any_spelling_has_its_number(tmp_path, word):
+    scene = rich_scene(tmp_path)
+    scene.nodes = [replace(n, layer=word, tag="It's: \"odd\"") if n.name == "Base" else n for n in scene.nodes]
+    number = {"Scenery": 9, "Water": 4, "Pass\xe9 & co": 8, "Default": 0}[word]
+    assert words(kinefab.export(scene, project(tmp_path)).path)["Base"] == (number, "It's: \"odd\"")
+
+
+def test_what_the_project_lacks_is_told_once(tmp_path):
+    scene = rich_scene(tmp_path)
+    scene.nodes = [replace(n, layer="Robots", tag="Robots") for n in scene.nodes]
+    result = kinefab.export(scene, project(tmp_path))
+    assert set(words(result.path).values()) == {(0, "Untagged")}
+    (layer, tag) = (d for d in result.report.diagnostics if d.code == "UNITY_LAYER_OR_TAG_MISSING")
+    assert f"no layer Robots, which {len(scene.nodes)} object(s)" in layer.message and "no tag Robots" in tag.message
+
+
+@pytest.mark.parametrize("text", ["", "\0binary", "%YAML 1.1\nTagManager:\n  layers: []\n", "%YAML 1.1\n  layers:\n  - \"\\"])
+def test_a_list_that_cannot_be_read_stands_in_nobodys_way(tmp_path, text):
+    result = kinefab.export(rich_scene(tmp_path), project(tmp_path, text))
+    assert words(result.path)["Base"][0] == 0
+    assert any(feature == "layer Scenery of Top/Base" for feature, _ in told(result))
+
+
 def test_project_settings_are_told(tmp_path):
     scene = rich_scene(tmp_path)
     scene.physics = model.Physics(gravity=(0, 0, 0), solver_iterations=20)
     found = {feature for feature, _ in told(exported(scene, tmp_path))}
     assert {"project setting gravity", "project setting solverIterations"} <= found
+    messages = [d.message for d in exported(scene, tmp_path).report.diagnostics if d.code == "TARGET_PROJECT_SETTING"]
+    assert any("solverIterations 20," in message for message in messages)
 
 
 @pytest.mark.parametrize("word", [{"unity": "5"}, {"pipeline": "own"}, {"physics": "none"}])

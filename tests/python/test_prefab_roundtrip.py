@@ -96,6 +96,8 @@ def _object(index, node, nodes, content, scene_path, dialect) -> list[str]:
     for wanted, component in zip(expected, components):
         own = f"{where} {wanted['type']}"
         fields = {k: v for k, v in told(wanted["type"], wanted).items() if k not in ALSO}
+        if wanted["type"].endswith("Joint") and fields.pop("enabled") is not True:
+            found.append(f"{own}: no joint of Unity's can be switched off")
         for lost in ("maxAngularVelocity", "solverIterations", "solverVelocityIterations"):
             fields.pop(lost, None)  # a prefab has no place for them
         if dialect == "2021":

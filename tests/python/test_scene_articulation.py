@@ -8,6 +8,7 @@ from pathlib import Path
 import kinefab
 import numpy as np
 import pytest
+from kinefab.model import Apart
 from kinefab.spatial import matrix_from_quaternion
 from kinefab.views.overview import overview, picture
 from test_prefab_articulation import ARTICULATED, BOX, arm, exported, link, mass, nodes_of
@@ -110,3 +111,17 @@ def test_inspect_and_page_show_what_a_link_may_do(tmp_path):
     assert [c[:2] for c in told[0][1]] == [c[:2] for c in told[1][1]]
     for one, other in zip(told[0][1], told[1][1]):
         assert one[2:] == pytest.approx(other[2:])
+
+
+def test_pairs_that_do_not_collide_name_the_same_parts_below_other_ones(tmp_path):
+    """Links stand below those that hold them, so that objects change places in the file."""
+    scene = kinefab.Scene()
+    for name in ("Base", "Loose", "Upper", "Fore"):
+        scene.add_part(name, BOX, grounded=name == "Base")
+    scene.add_hinge(0, 3, point=(0, 0, 0), axis=(0, 0, 1))
+    scene.add_hinge(3, 2, point=(0, 0, 1), axis=(0, 0, 1))
+    scene.apart.append(Apart(1, 3, "filtered pair"))
+    found = written(scene, tmp_path)
+    names = [entry["name"] for entry in found["gameObjects"]]
+    assert names.index("Fore") < names.index("Upper")
+    assert [{names[pair["a"]], names[pair["b"]]} for pair in found["ignoredCollisions"]] == [{"Loose", "Fore"}]

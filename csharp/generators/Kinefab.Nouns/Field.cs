@@ -31,6 +31,9 @@ internal sealed class Field
     /// <summary>Whether it is written at its default too.</summary>
     internal bool IsAlwaysWritten => IsRequired || Argument("Always", false);
 
+    /// <summary>Whether many objects have the same text there.</summary>
+    internal bool IsShared => Argument("Shared", false);
+
     /// <summary>Fewest items of a list.</summary>
     internal int Least => Argument("Least", 0);
 

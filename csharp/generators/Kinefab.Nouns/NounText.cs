@@ -71,6 +71,8 @@ internal static class NounText
                 ? $"foreach ({field.Type.Name} word in json.WordSet({field.Type.Name}Words.Table)) {field.Into} |= word;"
                 : field.Name == "extras"
                 ? $"{field.Into} = json.Extras();"
+                : field.IsShared
+                ? $"{field.Into} = json.SharedText();"
                 : $"{field.Into} = {(field.Reader is string reader ? $"{reader}(ref json)" : ValueText.Read(field.Type, "json", field.Least))};";
             cases.Append($"                case {i + first}:\n                    {read}\n                    break;\n");
         }

@@ -164,7 +164,7 @@ def analysed(scene: Scene, options: ExportOptions, report: Report, progress: Pro
     )
     report.extend(found.report)
     exported = with_helpers(found.scene(options.solve))
-    groups = rigid_groups(exported, found.fixed)
+    groups = rigid_groups(exported, [*found.fixed, *found.built])
     exported = with_mated_apart(exported, groups)
     progress("analyse", 1.0)
     return Analysed(found, exported, groups)
@@ -266,7 +266,8 @@ def _mapped(found: Analysed, options: ExportOptions, links: bool, report: Report
     entry, held = scene_entry(found.analysis), holding(found.analysis)
     mapped = map_scene(scene, groups, colliders, report, entry, held, found.analysis.findings)
     mapped = with_groups_apart(with_welded_apart(mapped), found.scene, report)
-    check_overlaps(mapped, report)
+    if not links:  # of links the target that makes them tells
+        check_overlaps(mapped, report)
     mapped = with_switched_off(mapped, found.scene, groups, report)
     report.settle()
     return mapped

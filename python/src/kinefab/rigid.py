@@ -62,7 +62,8 @@ def active_nodes(scene: Scene) -> list[bool]:
 def rigid_groups(scene: Scene, also_fixed: Iterable[tuple[int | None, int | None]] = ()) -> RigidGroups:
     """Group the scene's nodes by fixed joints, inflexible assemblies and the ground.
 
-    also_fixed: further pairs of nodes that are fixed to each other (None: ground), as an analysis finds them.
+    also_fixed: further pairs of nodes that are fixed to each other (None: ground), as an analysis finds them; of two on the ground, also
+    without it.
     """
     nodes, active = scene.nodes, active_nodes(scene)
     ground = len(nodes)

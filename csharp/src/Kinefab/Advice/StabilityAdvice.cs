@@ -4,6 +4,7 @@ using System.Linq;
 using System.Threading;
 using Kinefab.Advice.Findings;
 using Kinefab.Advice.Trials;
+using Kinefab.Collisions;
 using Kinefab.Diagnostics;
 using Kinefab.Dynamics;
 using Kinefab.Validation;
@@ -45,7 +46,7 @@ public static class StabilityAdvice
                 .ThenBy(f => f.Diagnostic.Code, StringComparer.Ordinal)
                 .ToArray()
             : Array.Empty<AdviceFinding>();
-        return new AdviceReport(examination.Plan.Step, examination.Plan.Samples, examination.Workbench.Count, findings, Remarks(examination));
+        return new AdviceReport(examination.Plan.Step, examination.Plan.Samples, examination.Workbench.Count, findings, Remarks(examination, cancellation));
     }
 
     private static IEnumerable<AdviceFinding> Findings(Examination e) =>
@@ -60,7 +61,7 @@ public static class StabilityAdvice
             .Concat(RepeatedRows.Find(e))
             .Concat(NarrowLimits.Find(e));
 
-    private static Report Remarks(Examination e)
+    private static Report Remarks(Examination e, CancellationToken cancellation)
     {
         var found = new List<Diagnostic>();
         if (!e.Unity.IsSound)
@@ -77,7 +78,7 @@ public static class StabilityAdvice
             found.Add(Remark(DiagnosticCodes.AdviceRowsUntried, ("count", Json.Invariant.Text(e.Remedies.RowsUntried))));
         if (e.Workbench.IsSpent)
             found.Add(Remark(DiagnosticCodes.AdviceTrialsSpent, ("count", Json.Invariant.Text(e.Workbench.Count))));
-        return new Report(e.World.Findings.Diagnostics.Concat(ExactSolverCheck.Of(e.Scene)).Concat(found).ToArray());
+        return new Report(e.World.Findings.Diagnostics.Concat(ExactSolverCheck.Of(e.Scene)).Concat(StartOverlaps.Of(e.Scene, cancellation).Diagnostics).Concat(found).ToArray());
     }
 
     private static Diagnostic Remark(string code, params (string Name, string Value)[] values)

@@ -231,6 +231,12 @@ public static class DiagnosticCodes
     /// <summary>Unity ignores a MeshCollider that is not convex on a Rigidbody that is not kinematic.</summary>
     public const string MeshColliderNotConvex = "MESH_COLLIDER_NOT_CONVEX";
 
+    /// <summary>The colliders of {a} and {b} overlap by {depth} m at the exported pose, and no joint keeps the two from colliding: Unity pushes them apart.</summary>
+    public const string CollidersOverlap = "COLLIDERS_OVERLAP";
+
+    /// <summary>Whether colliders overlap at the exported pose was not checked: {detail}.</summary>
+    public const string OverlapsNotChecked = "OVERLAPS_NOT_CHECKED";
+
     /// <summary>There are {materials} materials for {submeshes} submeshes.</summary>
     public const string RendererMaterialCount = "RENDERER_MATERIAL_COUNT";
 

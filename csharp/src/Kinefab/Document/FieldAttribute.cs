@@ -18,6 +18,9 @@ internal sealed class FieldAttribute : Attribute
     /// <summary>Written at its default too.</summary>
     public bool Always { get; init; }
 
+    /// <summary>Many objects of a file have the same text there: they get one string.</summary>
+    public bool Shared { get; init; }
+
     /// <summary>Fewest items of a list.</summary>
     public int Least { get; init; }
 

@@ -50,6 +50,8 @@ internal sealed class FieldNames
         }
     }
 
-    private int Slot(ReadOnlySpan<byte> name) =>
-        (name.Length * 37 + name[0] * 7 + name[^1] * 13 + name[name.Length / 2] * 29) & (slots.Length - 1);
+    /// <summary>Of a text that is not empty; cheap, and different for most names of a file.</summary>
+    internal static int Hash(ReadOnlySpan<byte> name) => name.Length * 37 + name[0] * 7 + name[^1] * 13 + name[name.Length / 2] * 29;
+
+    private int Slot(ReadOnlySpan<byte> name) => Hash(name) & (slots.Length - 1);
 }

@@ -4,13 +4,18 @@ using System.Buffers.Binary;
 namespace Kinefab.Json;
 
 /// <summary>
-/// Decimal numbers of few digits, read exactly and fast.  When the digits fit 53 bits and the power of ten is at most
-/// 22, both are exact as doubles, so one multiplication or division rounds once and correctly (W. D. Clinger, "How to
+/// Decimal numbers of few digits, read exactly while they are scanned.  When the digits fit 53 bits and the power of ten is at
+/// most 22, both are exact as doubles, so one multiplication or division rounds once and correctly (W. D. Clinger, "How to
 /// read floating point numbers accurately", PLDI 1990).  All others are left to the runtime.
 /// </summary>
-internal static class ShortDecimal
+internal struct ShortDecimal
 {
     private const ulong LargestExact = 1UL << 53;
+
+    // As many fit 64 bits.
+    private const int MostDigits = 19;
+
+    private const int MostPower = 22;
 
     private static readonly double[] PowersOfTen =
     {
@@ -18,47 +23,85 @@ internal static class ShortDecimal
         1e12, 1e13, 1e14, 1e15, 1e16, 1e17, 1e18, 1e19, 1e20, 1e21, 1e22,
     };
 
-    /// <summary>From a JSON number; false when it is not of this kind.</summary>
-    internal static bool TryParse(ReadOnlySpan<byte> number, out double value)
+    private ulong _digits;
+    private int _count;
+    private int _power;
+    private bool _isNegative;
+
+    /// <summary>Before the first digit.</summary>
+    internal ShortDecimal(bool isNegative)
+    {
+        this = default;
+        _isNegative = isNegative;
+    }
+
+    /// <summary>Appends the digits in front of the point.</summary>
+    /// <returns>Behind them.</returns>
+    internal int AddWhole(ReadOnlySpan<byte> text, int from)
+    {
+        int end = AddDigits(text, from);
+        _count = end - from;
+        return end;
+    }
+
+    /// <summary>Appends the digits behind the point.</summary>
+    /// <returns>Behind them.</returns>
+    internal int AddFraction(ReadOnlySpan<byte> text, int from)
+    {
+        int i = from;
+        while (i + 8 <= text.Length && TryAddEight(text.Slice(i)))
+            i += 8;
+        i = AddDigits(text, i);
+        _count += i - from;
+        _power = from - i;
+        return i;
+    }
+
+    /// <summary>Takes the power of ten behind the e.</summary>
+    /// <returns>Behind its digits.</returns>
+    internal int AddPower(ReadOnlySpan<byte> text, int from, bool isNegative)
+    {
+        const int beyond = 1000;
+        int power = 0;
+        int i = from;
+        for (; (uint)i < (uint)text.Length && (uint)(text[i] - '0') <= 9; i++)
+            power = power < beyond ? power * 10 + (text[i] - '0') : power;
+        // The many digits of a fraction do not bring a power that was cut back into range: they are more than MostDigits.
+        _power += isNegative ? -power : power;
+        return i;
+    }
+
+    /// <summary>The number; false when it is not of this kind.</summary>
+    internal readonly bool TryGet(out double value)
     {
         value = 0;
-        int first = number[0] == '-' ? 1 : 0;
-        ulong digits = 0;
-        int point = -1;
-        int i = first;
-        for (; i < number.Length; i++)
-        {
-            uint digit = (uint)(number[i] - '0');
-            if (digit <= 9)
-            {
-                digits = digits * 10 + digit;
-                continue;
-            }
+        if (_count > MostDigits || _digits > LargestExact || _power < -MostPower || _power > MostPower)
+            return false;
+        double magnitude = _power < 0 ? _digits / PowersOfTen[-_power] : _digits * PowersOfTen[_power];
+        value = _isNegative ? -magnitude : magnitude;
+        return true;
+    }
 
-            if (number[i] != '.')
+    private int AddDigits(ReadOnlySpan<byte> text, int i)
+    {
+        ulong digits = _digits;
+        for (; (uint)i < (uint)text.Length; i++)
+        {
+            uint digit = (uint)(text[i] - '0');
+            if (digit > 9)
                 break;
-            point = i;
-            while (i + 8 < number.Length && TryEight(number.Slice(i + 1), ref digits))
-                i += 8;
+            digits = digits * 10 + digit;
         }
 
-        int count = i - first - (point < 0 ? 0 : 1);
-        // More than 19 digits may have overflowed.
-        if (count > 19 || digits > LargestExact || !TryExponent(number.Slice(i), out int power))
-            return false;
-        power -= point < 0 ? 0 : i - 1 - point;
-        if (power < -22 || power > 22)
-            return false;
-        double magnitude = power < 0 ? digits / PowersOfTen[-power] : digits * PowersOfTen[power];
-        value = first == 1 ? -magnitude : magnitude;
-        return true;
+        _digits = digits;
+        return i;
     }
 
     /// <summary>
     /// Appends the next eight characters when all are digits, four multiplications for the eight (D. Lemire,
     /// "Number parsing at a gigabyte per second", Software: Practice and Experience 51, 2021, section 7).
     /// </summary>
-    private static bool TryEight(ReadOnlySpan<byte> text, ref ulong digits)
+    private bool TryAddEight(ReadOnlySpan<byte> text)
     {
         ulong eight = BinaryPrimitives.ReadUInt64LittleEndian(text);
         const ulong high = 0xF0F0F0F0F0F0F0F0;
@@ -68,24 +111,7 @@ internal static class ShortDecimal
         eight = eight * 10 + (eight >> 8);
         const ulong mask = 0x000000FF000000FF;
         eight = ((eight & mask) * 0x000F424000000064 + ((eight >> 16) & mask) * 0x0000271000000001) >> 32;
-        digits = digits * 100000000 + (uint)eight;
-        return true;
-    }
-
-    /// <summary>From nothing, or from e, a sign and at most two digits.</summary>
-    private static bool TryExponent(ReadOnlySpan<byte> text, out int exponent)
-    {
-        exponent = 0;
-        if (text.IsEmpty)
-            return true;
-        bool signed = text[1] is (byte)'-' or (byte)'+';
-        ReadOnlySpan<byte> digits = text.Slice(signed ? 2 : 1);
-        if (digits.Length > 2)
-            return false;
-        foreach (byte digit in digits)
-            exponent = exponent * 10 + (digit - '0');
-        if (text[1] == '-')
-            exponent = -exponent;
+        _digits = _digits * 100000000 + (uint)eight;
         return true;
     }
 }

@@ -1,4 +1,5 @@
 using System;
+using System.Buffers.Binary;
 using System.Buffers.Text;
 using System.Runtime.CompilerServices;
 using System.Text;
@@ -25,6 +26,7 @@ internal ref struct Utf8Tokenizer
     private int _valueLength;
     private bool _isEscaped;
     private JsonToken _token;
+    private ShortDecimal _number;
 
     /// <summary>Before the first token.</summary>
     /// <param name="text">UTF-8 without a byte order mark.</param>
@@ -124,7 +126,7 @@ internal ref struct Utf8Tokenizer
     /// <summary>The number, nearest; beyond the largest infinite.</summary>
     public readonly double GetDouble()
     {
-        if (ShortDecimal.TryParse(Value, out double value))
+        if (_number.TryGet(out double value))
             return value;
 #if NET
         return Utf8Parser.TryParse(Value, out value, out _) ? value : LongDecimal.Parse(Value);
@@ -242,6 +244,14 @@ internal ref struct Utf8Tokenizer
         int i = at + 1;
         while ((uint)i < (uint)text.Length)
         {
+            if (i + 8 <= text.Length)
+            {
+                int plain = PlainBytes(BinaryPrimitives.ReadUInt64LittleEndian(text.Slice(i)));
+                i += plain;
+                if (plain == 8)
+                    continue;
+            }
+
             byte b = text[i];
             if (b == '"')
             {
@@ -263,6 +273,16 @@ internal ref struct Utf8Tokenizer
         }
 
         Fail(text.Length, "The text ends inside a string");
+    }
+
+    // How many of eight bytes come before the first that ends a string, begins an escape or is a control character. Where a byte is
+    // 0 or below, its high bit is set, and no lower byte's (H. S. Warren, Hacker's Delight, 2nd edition, 2012, section 6-1).
+    private static int PlainBytes(ulong eight)
+    {
+        const ulong ones = 0x0101010101010101, high = 0x8080808080808080;
+        ulong quote = eight ^ (ones * '"'), backslash = eight ^ (ones * '\\');
+        ulong found = (((quote - ones) & ~quote) | ((backslash - ones) & ~backslash) | ((eight - ones * ' ') & ~eight)) & high;
+        return found == 0 ? 8 : (int)(((((found & (0 - found)) - 1) & ones) * ones) >> 56) - 1;
     }
 
     private readonly int AfterEscape(int backslash)
@@ -294,17 +314,25 @@ internal ref struct Utf8Tokenizer
     {
         ReadOnlySpan<byte> text = _text;
         int i = at;
-        if (text[i] == '-')
-            i = AfterDigit(i + 1, "A digit has to follow the minus sign") - 1;
-        i = text[i] == '0' ? i + 1 : AfterDigits(i + 1);
+        bool isNegative = text[i] == '-';
+        if (isNegative)
+            NeedDigit(++i, "A digit has to follow the minus sign");
+        var number = new ShortDecimal(isNegative);
+        i = text[i] == '0' ? i + 1 : number.AddWhole(text, i);
         if (i < text.Length && text[i] == '.')
-            i = AfterDigits(AfterDigit(i + 1, "A digit has to follow the point of a number"));
+        {
+            NeedDigit(++i, "A digit has to follow the point of a number");
+            i = number.AddFraction(text, i);
+        }
+
         if (i < text.Length && (text[i] | 0x20) == 'e')
         {
             i++;
-            if (i < text.Length && text[i] is (byte)'+' or (byte)'-')
+            bool isSmall = i < text.Length && text[i] == '-';
+            if (isSmall || (i < text.Length && text[i] == '+'))
                 i++;
-            i = AfterDigits(AfterDigit(i, "A digit has to follow the e of a number"));
+            NeedDigit(i, "A digit has to follow the e of a number");
+            i = number.AddPower(text, i, isSmall);
         }
 
         // What begins a comment is told as a missing comma, not as part of the number.
@@ -312,6 +340,7 @@ internal ref struct Utf8Tokenizer
             Fail(i, "A number is followed by what cannot follow it");
         if (i >= text.Length && _depth > 0)
             Fail(i, "The text ends behind a number");
+        _number = number;
         _token = JsonToken.Number;
         _start = at;
         _valueStart = at;
@@ -320,19 +349,10 @@ internal ref struct Utf8Tokenizer
         return true;
     }
 
-    private readonly int AfterDigit(int i, string message)
+    private readonly void NeedDigit(int i, string message)
     {
         if (i >= _text.Length || (uint)(_text[i] - '0') > 9)
             Fail(i, message);
-        return i + 1;
-    }
-
-    private readonly int AfterDigits(int i)
-    {
-        ReadOnlySpan<byte> text = _text;
-        while ((uint)i < (uint)text.Length && (uint)(text[i] - '0') <= 9)
-            i++;
-        return i;
     }
 
     private static bool Fail(int offset, string message) => throw new JsonSyntaxException(offset, message);

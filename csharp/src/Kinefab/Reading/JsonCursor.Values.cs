@@ -80,6 +80,16 @@ internal ref partial struct JsonCursor
         return TextOf(reader);
     }
 
+    /// <summary>A string that many objects have alike.</summary>
+    internal string SharedText()
+    {
+        if (reader.Token != JsonToken.String)
+            return Text();
+        if (!shared.TryGetString(text, reader, out string value))
+            Report(DiagnosticCodes.JsonStringInvalid);
+        return value;
+    }
+
     private readonly string TextOf(in Utf8Tokenizer at)
     {
         if (!at.TryGetString(out string value))
@@ -203,7 +213,7 @@ internal ref partial struct JsonCursor
     private T[] Items<T>(T first, ReadItem<T> item)
     {
         if (!NextItem())
-            return new[] { first };
+            return One(first);
         T[] pooled = ArrayPool<T>.Shared.Rent(8);
         pooled[0] = first;
         int count = 1;
@@ -226,6 +236,9 @@ internal ref partial struct JsonCursor
         Return(pooled, count);
         return items;
     }
+
+    private readonly T[] One<T>(T item) =>
+        typeof(T) == typeof(int) ? (T[])(object)shared.Single((int)(object)item!) : new[] { item };
 
     /// <summary>An object of strings.</summary>
     internal IReadOnlyDictionary<string, string> Dictionary()

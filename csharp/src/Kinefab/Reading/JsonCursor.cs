@@ -17,6 +17,7 @@ internal ref partial struct JsonCursor
     private readonly Severity unknownFields;
     private readonly int maxItems;
     private readonly ReadingProgress progress;
+    private readonly SharedValues shared;
     private Utf8Tokenizer reader;
 
     /// <summary>Start of the object whose <c>type</c> was read ahead of its other fields, or -1.</summary>
@@ -30,6 +31,7 @@ internal ref partial struct JsonCursor
         unknownFields = strict ? Severity.Error : Severity.Warning;
         this.maxItems = maxItems;
         this.progress = progress;
+        shared = new SharedValues();
         reader = new Utf8Tokenizer(text, maxDepth);
         typedStart = -1;
         reader.Read();

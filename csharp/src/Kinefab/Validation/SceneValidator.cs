@@ -25,26 +25,12 @@ public static class SceneValidator
             throw new ArgumentNullException(nameof(document));
         var findings = new Findings((limits ?? SceneLimits.Default).MaxFindings);
         Descriptions(document, findings);
-        StructureRules.Ids(document, findings);
-        StructureRules.Roles(document, findings);
-        var anchored = new List<(int GameObject, int Component)>();
-
-        // The nearest Rigidbody on each object or its ancestors; parents may still be wrong, so only earlier ones count.
-        var bodies = new Rigidbody?[document.GameObjectSpan.Length];
-        for (int i = 0; i < document.GameObjectSpan.Length; i++)
-        {
-            if (i % ObjectsBetweenLooks == 0)
-                cancellation.ThrowIfCancellationRequested();
-            GameObject gameObject = document.GameObjectSpan[i];
-            bodies[i] = gameObject.Body ?? (gameObject.Parent is int parent && parent >= 0 && parent < i ? bodies[parent] : null);
-            GameObject(document, i, bodies[i], anchored, findings);
-        }
-
+        HierarchyPlaces places = GameObjects(document, findings, cancellation);
         Lists(document, findings);
         Buffers(document, findings, cancellation);
-        ValidScene? scene = findings.Errors == 0 ? new ValidScene(document) : null;
+        ValidScene? scene = findings.Errors == 0 ? new ValidScene(document, places) : null;
         if (scene is not null)
-            Placement(scene, anchored, findings);
+            Placement(scene, findings);
         Report report = FindingPlaces.Resolve(findings, document.Text.Span, hasText: !document.Text.IsEmpty);
         if (scene is not null)
             scene.Report = report;
@@ -60,7 +46,28 @@ public static class SceneValidator
             DescriptionRules.Analysis(analysis, document.GameObjects.Count, new Place(findings, "analysis"));
     }
 
-    private static void GameObject(SceneDocument document, int index, Rigidbody? nearestBody, List<(int GameObject, int Component)> anchored, Findings findings)
+    // One pass over everything, since a large scene is far larger than the processor's memory for what it looked at last.
+    private static HierarchyPlaces GameObjects(SceneDocument document, Findings findings, CancellationToken cancellation)
+    {
+        ReadOnlySpan<GameObject> objects = document.GameObjectSpan;
+        var places = new HierarchyPlaces(objects.Length);
+        var ids = new Dictionary<string, int>(objects.Length, StringComparer.Ordinal);
+        int ground = -1;
+        for (int i = 0; i < objects.Length; i++)
+        {
+            if (i % ObjectsBetweenLooks == 0)
+                cancellation.ThrowIfCancellationRequested();
+            var at = new Place(findings, "gameObjects", i);
+            StructureRules.Id(objects[i], i, ids, at);
+            StructureRules.Role(objects[i], i, ref ground, at);
+            places.Add(objects[i]);
+            GameObject(document, i, places.BodyOf(i) is int body ? objects[body].Body : null, findings);
+        }
+
+        return places;
+    }
+
+    private static void GameObject(SceneDocument document, int index, Rigidbody? nearestBody, Findings findings)
     {
         ReadOnlySpan<GameObject> objects = document.GameObjectSpan;
         GameObject gameObject = objects[index];
@@ -105,8 +112,6 @@ public static class SceneValidator
                     break;
                 case Joint joint:
                     Joint(joint, index, objects, document.Physics.FixedTimestep, place);
-                    if (joint is AnchoredJoint { Enabled: true })
-                        anchored.Add((index, c));
                     break;
             }
         }
@@ -249,21 +254,21 @@ public static class SceneValidator
     }
 
     /// <summary>Rules that need every object's place in the world.</summary>
-    private static void Placement(ValidScene scene, List<(int GameObject, int Component)> anchored, Findings findings)
+    private static void Placement(ValidScene scene, Findings findings)
     {
         ReadOnlySpan<GameObject> objects = scene.Document.GameObjectSpan;
         for (int i = 0; i < objects.Length; i++)
         {
             if (objects[i].Parent is int parent)
                 TransformRules.Skew(objects[i].Transform, scene.WorldTransform(parent).Scale, new Place(findings, "gameObjects", i));
-            if (objects[i].Link is ArticulationBody link && LinkJoint.Parent(scene.Document, i) is int above)
-                LinkRules.Anchors(link, scene.WorldTransform(i), scene.WorldTransform(above), new Place(findings, "gameObjects", i, objects[i].ComponentSpan.IndexOf(link)));
-        }
-
-        foreach ((int index, int component) in anchored)
-        {
-            var joint = (AnchoredJoint)objects[index].ComponentSpan[component];
-            Anchors(joint, scene, index, new Place(findings, "gameObjects", index, component));
+            ReadOnlySpan<Component> components = objects[i].ComponentSpan;
+            for (int c = 0; c < components.Length; c++)
+            {
+                if (components[c] is AnchoredJoint { Enabled: true } joint)
+                    Anchors(joint, scene, i, new Place(findings, "gameObjects", i, c));
+                else if (components[c] is ArticulationBody link && LinkJoint.Parent(scene.Document, i) is int above)
+                    LinkRules.Anchors(link, scene.WorldTransform(i), scene.WorldTransform(above), new Place(findings, "gameObjects", i, c));
+            }
         }
     }
 

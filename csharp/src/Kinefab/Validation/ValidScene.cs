@@ -11,22 +11,17 @@ namespace Kinefab.Validation;
 [DebuggerDisplay("{ToString(),nq}")]
 public sealed partial class ValidScene
 {
-    private const int Nobody = -1;
-
-    private readonly WorldTransform[] world;
-    private readonly int[] bodyOf;
+    private readonly HierarchyPlaces places;
 
     internal ValidScene(SceneDocument document)
+        : this(document, HierarchyPlaces.Of(document))
+    {
+    }
+
+    internal ValidScene(SceneDocument document, HierarchyPlaces places)
     {
         Document = document;
-        world = Validation.WorldTransform.Of(document);
-        bodyOf = new int[document.GameObjects.Count];
-        for (int i = 0; i < bodyOf.Length; i++)
-        {
-            // Parents stand earlier.
-            GameObject own = document.GameObjects[i];
-            bodyOf[i] = own.Body is not null ? i : own.Parent is int parent ? bodyOf[parent] : Nobody;
-        }
+        this.places = places;
     }
 
     /// <summary>The scene as it stands in the file.</summary>
@@ -42,7 +37,7 @@ public sealed partial class ValidScene
     /// <param name="gameObject">Index of the GameObject.</param>
     /// <returns>Unity's left-handed frame, metres.</returns>
     /// <exception cref="ArgumentOutOfRangeException">There is no such GameObject.</exception>
-    public WorldTransform WorldTransform(int gameObject) => world[Index(gameObject)];
+    public WorldTransform WorldTransform(int gameObject) => places.World(Index(gameObject));
 
     /// <summary>The numbers of a mesh.</summary>
     /// <param name="mesh">Index of the mesh.</param>
@@ -95,7 +90,7 @@ public sealed partial class ValidScene
     /// <param name="gameObject">Index of the GameObject.</param>
     /// <returns>Index of a GameObject, or null.</returns>
     /// <exception cref="ArgumentOutOfRangeException">There is no such GameObject.</exception>
-    public int? BodyOf(int gameObject) => bodyOf[Index(gameObject)] is var body && body != Nobody ? body : null;
+    public int? BodyOf(int gameObject) => places.BodyOf(Index(gameObject));
 
     /// <summary>The joint that a coupling refers to.</summary>
     /// <param name="coordinate">One end of a coupling.</param>
@@ -126,9 +121,9 @@ public sealed partial class ValidScene
         return $"scene of {Document.GameObjects.Count} objects, {bodies} bodies, {joints} joints, {Document.Couplings.Count} couplings; {Report}";
     }
 
-    private int Index(int gameObject) => (uint)gameObject < (uint)world.Length
+    private int Index(int gameObject) => (uint)gameObject < (uint)places.Count
         ? gameObject
-        : throw new ArgumentOutOfRangeException(nameof(gameObject), $"The scene has {world.Length} objects.");
+        : throw new ArgumentOutOfRangeException(nameof(gameObject), $"The scene has {places.Count} objects.");
 
     private Joint JointAt(int gameObject, int component, string argument)
     {

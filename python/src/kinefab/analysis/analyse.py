@@ -14,6 +14,7 @@ from ..model import Coupling, Joint, Scene
 from ..options import Closures
 from ..rigid import rigid_groups
 from .assembly.assemble import Assembly, assemble
+from .assembly.bases import built_together
 from .couplings.rehanging import rehung
 from .couplings.standing import without_standing
 from .couplings.stated import couplings_of
@@ -94,8 +95,8 @@ def _analysed(scene: Scene, options: AnalysisOptions, progress: Callable[[float]
     couplings = without_standing(assembly, links, couplings, closed, report)
     as_stated = len(closed.nodes) == len(assembly.scene.nodes) and len(couplings) == stated
     couplings += symmetric_couplings(assembly, tree, links, closed, report)
-    fixed = _fixed(assembly)
-    groups = rigid_groups(scene, fixed)
+    fixed, built = _fixed(assembly), built_together(assembly)
+    groups = rigid_groups(scene, [*fixed, *built])
     joints = _in_source_order(assembly, links)
     place = {joint.id: i for i, joint in enumerate(joints)}
     return Analysis(
@@ -106,6 +107,7 @@ def _analysed(scene: Scene, options: AnalysisOptions, progress: Callable[[float]
         rank=_rank(assembly),
         groups=groups,
         fixed=fixed,
+        built=built,
         islands=islands_of(assembly, tree, links, found.aside, couplings),
         idle=sorted(
             idle_freedoms(assembly) if as_stated else _idle(assembly, links, couplings, closed),

@@ -2,15 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection
-
 import numpy as np
 
 from ..diagnostics import Report
 from ..geometry.contact.depth import Depths, is_available
 from ..geometry.contact.nearness import close_pairs
 from ..spatial import Array
-from .scene import Joint, Rigidbody, UnityScene
+from .scene import ArticulationBody, Joint, Rigidbody, UnityScene
 from .standing import standing_colliders
 
 CONTACT_OFFSET = 0.01
@@ -23,27 +21,19 @@ MOST_TRIANGLES = 100_000
 """Of a mesh that is not convex; finer ones take minutes to prepare."""
 
 
-def check_overlaps(
-    scene: UnityScene, report: Report, among: Collection[frozenset[int | None]] | None = None
-) -> None:
-    """Tell which pairs of objects overlap, each once with its greatest depth, the deepest first.
-
-    among: pairs of bodies, by their objects, that alone are looked at; None for all that no joint keeps from colliding.
-    """
+def check_overlaps(scene: UnityScene, report: Report) -> None:
+    """Tell which pairs of objects overlap, each once with its greatest depth, the deepest first."""
     bodies = bodies_of(scene)
     dynamic = {
         i
         for i, entry in enumerate(scene.gameObjects)
         for c in entry.components
-        if isinstance(c, Rigidbody) and not c.isKinematic
+        if (isinstance(c, Rigidbody) and not c.isKinematic) or (isinstance(c, ArticulationBody) and not c.immovable)
     }
     if not dynamic:
         return
     joined = joined_pairs(scene, bodies)
     ignored = {frozenset((pair.a, pair.b)) for pair in scene.ignoredCollisions}  # told, where Unity keeps them not
-
-    def may_collide(pair: frozenset[int | None]) -> bool:
-        return pair not in joined if among is None else pair in among
 
     def are_ignored(first: int, second: int) -> bool:
         within = [_within_body(scene, bodies, owner) for owner in (first, second)] if ignored else [[], []]
@@ -56,7 +46,7 @@ def check_overlaps(
         for first, second, tolerated in _close(standing.low, standing.high)
         if moved[first] != moved[second]
         and dynamic & {moved[first], moved[second]}
-        and may_collide(frozenset((moved[first], moved[second])))
+        and frozenset((moved[first], moved[second])) not in joined
         and not are_ignored(standing.owners[first], standing.owners[second])
     ]
     if not free:
@@ -94,22 +84,32 @@ def _within_body(scene: UnityScene, bodies: list[int | None], index: int) -> lis
 
 
 def bodies_of(scene: UnityScene) -> list[int | None]:
-    """For each object the one whose Rigidbody moves it."""
+    """For each object the one whose Rigidbody or ArticulationBody moves it."""
     found: list[int | None] = []
     for i, entry in enumerate(scene.gameObjects):
-        own = any(isinstance(c, Rigidbody) for c in entry.components)
+        own = any(isinstance(c, (Rigidbody, ArticulationBody)) for c in entry.components)
         found.append(i if own else None if entry.parent is None else found[entry.parent])
     return found
 
 
 def joined_pairs(scene: UnityScene, moved: list[int | None]) -> set[frozenset[int | None]]:
-    """Pairs of Rigidbodies that a joint keeps from colliding; Unity does so for no static collider."""
-    return {
+    """Pairs of bodies that a joint keeps from colliding, and a link and the one above it; Unity does so for no static collider."""
+    joined = {
         frozenset((moved[i], moved[c.connectedBody]))
         for i, entry in enumerate(scene.gameObjects)
         for c in entry.components
-        if isinstance(c, Joint) and c.connectedBody is not None and not c.enableCollision
+        if isinstance(c, Joint) and c.enabled and c.connectedBody is not None and not c.enableCollision
     }
+    links = {i for i, e in enumerate(scene.gameObjects) if any(isinstance(c, ArticulationBody) for c in e.components)}
+    return joined | {frozenset((i, above)) for i in links if (above := _link_above(scene, links, i)) is not None}
+
+
+def _link_above(scene: UnityScene, links: set[int], index: int) -> int | None:
+    """Of a link the one that its joint holds it to; None of a root."""
+    at = scene.gameObjects[index].parent
+    while at is not None and at not in links:
+        at = scene.gameObjects[at].parent
+    return at
 
 
 def _close(low: Array, high: Array) -> list[tuple[int, int, float]]:

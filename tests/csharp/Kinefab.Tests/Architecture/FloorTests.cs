@@ -20,7 +20,8 @@ public sealed class FloorTests
         ["Mechanisms"] = ["Joints", "Validation", "Document", "Numerics", "Diagnostics"],
         ["Dynamics"] = ["Mechanisms", "Joints", "Validation", "Document", "Json", "Numerics", "Diagnostics"],
         ["Kinematics"] = ["Mechanisms", "Joints", "Validation", "Document", "Json", "Numerics", "Diagnostics"],
-        ["Advice"] = ["Kinematics", "Dynamics", "Mechanisms", "Joints", "Validation", "Document", "Json", "Numerics", "Diagnostics"],
+        ["Collisions"] = ["Validation", "Document", "Json", "Numerics", "Diagnostics"],
+        ["Advice"] = ["Collisions", "Kinematics", "Dynamics", "Mechanisms", "Joints", "Validation", "Document", "Json", "Numerics", "Diagnostics"],
     };
 
     // The rooms of a hall that has several, from the ground up.

@@ -20,7 +20,8 @@ public sealed class AdviseCommandTests
         {
             data = data.ReplaceLineEndings("\n");
             Assert.That((exit, findings), Is.EqualTo((0, "")));
-            Assert.That(data, Does.Contain("100 steps of 0.02 s in Unity's solver and the exact one; 2 warnings"));
+            Assert.That(data, Does.Contain("100 steps of 0.02 s in Unity's solver and the exact one; 4 warnings"));
+            Assert.That(data, Does.Contain("warning COLLIDERS_OVERLAP: The colliders of Lever/Base:1/body:Guide and Lever/SliderD:1 overlap by 0.016 m"));
             Assert.That(data, Does.Match(@"warning ADVICE_JOINT_DRIFTS: The HingeJoint Lever/BarC:1 - Lever/Crank:1 comes apart by [0-9.]+ mm and [0-9.]+ degrees within 2 s"));
             Assert.That(data, Does.Match(@"  do     [0-9.]+ mm and 0\.0[0-9.]+ degrees +X Motion, Angular Y Motion, Angular Z Motion Free -> Locked on ConfigurableJoint Lever/SliderD:1 - Lever/BarC:1\n"));
             Assert.That(data, Does.Match(@"  tried  [0-9.]+ mm and [0-9.]+ degrees +Project Settings > Physics > Default Solver Iterations 6 -> 12 \(Physics\.defaultSolverIterations\) \(1\.86 times the work\)\n"));
@@ -50,7 +51,7 @@ public sealed class AdviseCommandTests
         Assert.That(JsonSchema.Faults("advice.schema.json", first), Is.Empty);
         using JsonDocument report = JsonDocument.Parse(first);
         JsonElement finding = report.RootElement.GetProperty("advice").GetProperty("findings")[0];
-        Assert.That(report.RootElement.GetProperty("warnings").GetInt32(), Is.EqualTo(2));
+        Assert.That(report.RootElement.GetProperty("warnings").GetInt32(), Is.EqualTo(4));
         Assert.That(finding.GetProperty("tried").EnumerateArray().Count(t => t.GetProperty("best").GetBoolean()), Is.EqualTo(1));
     }
 

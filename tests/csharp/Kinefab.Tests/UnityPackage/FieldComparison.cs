@@ -27,6 +27,9 @@ internal sealed class FieldComparison
     /// <summary>Fields that stood at their default wherever they were met.</summary>
     public IEnumerable<string> AtDefaults => _met.Except(_moved).Order(StringComparer.Ordinal);
 
+    /// <summary>How many fields were compared.</summary>
+    public int Compared { get; private set; }
+
     public void Begin(ValidScene scene, Unity.GameObject[] objects) => (_scene, _objects) = (scene, objects);
 
     /// <summary>Asserts that all fields of an object of the document stand in Unity's.</summary>
@@ -47,9 +50,10 @@ internal sealed class FieldComparison
 
             string key = $"{from.GetType().Name}.{field.Name}";
             _met.Add(key);
+            Compared++;
             if (!Equals(value, field.GetValue(standard)) && !(value is System.Collections.ICollection { Count: 0 }))
                 _moved.Add(key);
-            Check(field, value, found, from, $"{at}.{name}");
+            Check(field, value, found, from, to, $"{at}.{name}");
         }
     }
 
@@ -60,13 +64,13 @@ internal sealed class FieldComparison
         return member is PropertyInfo property ? property.GetValue(of) : ((FieldInfo)member!).GetValue(of);
     }
 
-    private void Check(PropertyInfo field, object? value, object? found, object from, string at)
+    private void Check(PropertyInfo field, object? value, object? found, object from, object to, string at)
     {
         Physics project = _scene.Document.Physics;
         switch (field.Name)
         {
             case nameof(Joint.ConnectedBody):
-                Assert.That((found as Unity.Rigidbody)?.gameObject, value is int body ? Is.SameAs(_objects[body]) : Is.Null, at);
+                Assert.That(((found as Unity.Component) ?? ((Unity.Joint)to).connectedArticulationBody)?.gameObject, value is int body ? Is.SameAs(_objects[body]) : Is.Null, at);
                 break;
             case nameof(AnchoredJoint.ConnectedAnchor) when ((AnchoredJoint)from).AutoConfigureConnectedAnchor:
                 break; // Unity's own value, not the file's

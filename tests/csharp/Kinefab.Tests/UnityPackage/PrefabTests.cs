@@ -4,11 +4,16 @@ using System.Diagnostics;
 using System.IO;
 using System.Linq;
 using Kinefab.Tests.Conformance;
+using Kinefab.Validation;
 using NUnit.Framework;
+using Unity = UnityEngine;
 
 namespace Kinefab.Tests.UnityPackage;
 
-/// <summary>Two programs, one result: what the package makes of a scene is what Python's exporter writes as a prefab, field by field.</summary>
+/// <summary>
+/// Two programs, one result, field by field: what the package makes of a scene is what Python's exporter writes as a prefab, and each field of
+/// the document that C# reads stands in it. So what the prefab has, the document has.
+/// </summary>
 [NonParallelizable]
 public sealed class PrefabTests
 {
@@ -17,10 +22,20 @@ public sealed class PrefabTests
     private string folder = "";
 
     [SetUp]
-    public void MakeFolder() => folder = Directory.CreateTempSubdirectory("kinefab-prefabs-").FullName;
+    public void MakeFolder()
+    {
+        folder = Directory.CreateTempSubdirectory("kinefab-prefabs-").FullName;
+        Unity.LayerMask.Layers.Add("Scenery"); // as prefabs.py makes the project
+        Unity.GameObject.Tags.Add("Ground");
+    }
 
     [TearDown]
-    public void Remove() => Directory.Delete(folder, recursive: true);
+    public void Remove()
+    {
+        Directory.Delete(folder, recursive: true);
+        Unity.LayerMask.Layers.Remove("Scenery");
+        Unity.GameObject.Tags.Remove("Ground");
+    }
 
     [TestCase("body", 80)]
     [TestCase("world", 80)]
@@ -37,6 +52,7 @@ public sealed class PrefabTests
         Assert.That(prefabs, Has.Length.AtLeast(least));
         List<string> apart = [];
         int compared = 0;
+        var document = new FieldComparison();
         foreach (string prefab in prefabs)
         {
             var comparison = new PrefabComparison(prefab);
@@ -45,7 +61,10 @@ public sealed class PrefabTests
             try
             {
                 using (new global::NUnit.Framework.Internal.TestExecutionContext.IsolatedContext())
+                {
                     comparison.Same(asset.Root);
+                    UnityImportTests.Compare(ValidScene.Load(Path.ChangeExtension(prefab, ".kinefab")), document);
+                }
             }
             catch (AssertionException fault)
             {
@@ -56,8 +75,9 @@ public sealed class PrefabTests
         }
 
         Assert.That(apart, Is.Empty);
-        TestContext.Out.WriteLine($"{prefabs.Length} prefabs, {compared} fields");
+        TestContext.Out.WriteLine($"{prefabs.Length} prefabs, {compared} fields of theirs, {document.Compared} of documents");
         Assert.That(compared, Is.GreaterThan(100 * prefabs.Length));
+        Assert.That(document.Compared, Is.GreaterThan(50 * prefabs.Length));
     }
 
     private void Export(string kind)

@@ -20,6 +20,7 @@ public abstract record Collider : Component
 
     /// <summary>The source's collision group or layer; null for none.</summary>
     [Since(1)]
+    [Field(Shared = true)]
     public string? Group { get; init; }
 
     /// <summary>What the source calls it among the colliders of its object; null when it is not told.</summary>

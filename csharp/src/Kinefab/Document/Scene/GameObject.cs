@@ -14,7 +14,7 @@ public sealed partial record GameObject : DocumentObject
     public string Id { get; init; } = "";
 
     /// <summary>GameObject.name.</summary>
-    [Field(Required = true)]
+    [Field(Required = true, Shared = true)]
     public string Name { get; init; } = "";
 
     /// <summary>Index of an EARLIER GameObject; null for a root.</summary>
@@ -36,14 +36,17 @@ public sealed partial record GameObject : DocumentObject
 
     /// <summary>The source's word for its layer; Unity's layers are the project's. Null for none.</summary>
     [Since(1)]
+    [Field(Shared = true)]
     public string? Layer { get; init; }
 
     /// <summary>The source's word for its tag; null for none.</summary>
     [Since(1)]
+    [Field(Shared = true)]
     public string? Tag { get; init; }
 
     /// <summary>Of the part, shared by all its occurrences; null when it is not told.</summary>
     [Since(1)]
+    [Field(Shared = true)]
     public string? Definition { get; init; }
 
     /// <summary>What it is there for, where it is no part of the source; null for all others.</summary>

@@ -10,38 +10,26 @@ namespace Kinefab.Validation;
 internal static class StructureRules
 {
     /// <summary>An id names one GameObject, so that a re-import finds it again.</summary>
-    internal static void Ids(SceneDocument document, Findings findings)
+    internal static void Id(GameObject gameObject, int index, Dictionary<string, int> first, in Place at)
     {
-        ReadOnlySpan<GameObject> objects = document.GameObjectSpan;
-        var first = new Dictionary<string, int>(objects.Length, StringComparer.Ordinal);
-        for (int i = 0; i < objects.Length; i++)
-        {
-            string id = objects[i].Id;
-            var at = new Place(findings, "gameObjects", i);
-            if (id.Length == 0)
-                at.Report("id", DiagnosticCodes.IdEmpty);
-            else if (!first.TryAdd(id, i))
-                at.Report("id", DiagnosticCodes.IdDuplicate, ("id", id), ("first", Invariant.Text(first[id])));
-        }
+        string id = gameObject.Id;
+        if (id.Length == 0)
+            at.Report("id", DiagnosticCodes.IdEmpty);
+        else if (!first.TryAdd(id, index))
+            at.Report("id", DiagnosticCodes.IdDuplicate, ("id", id), ("first", Invariant.Text(first[id])));
     }
 
     /// <summary>The ground is one, and a site is a frame and nothing else.</summary>
-    internal static void Roles(SceneDocument document, Findings findings)
+    internal static void Role(GameObject gameObject, int index, ref int ground, in Place at)
     {
-        ReadOnlySpan<GameObject> objects = document.GameObjectSpan;
-        int ground = -1;
-        for (int i = 0; i < objects.Length; i++)
-        {
-            var at = new Place(findings, "gameObjects", i);
-            if (objects[i].Role == GameObjectRole.Site && (objects[i].ComponentSpan.Length > 0 || objects[i].Parent is null))
-                at.Report("role", DiagnosticCodes.SiteNotAFrame);
-            if (objects[i].Role != GameObjectRole.Ground)
-                continue;
-            if (ground >= 0)
-                at.Report("role", DiagnosticCodes.GroundTwice, ("first", Invariant.Text(ground)));
-            else
-                ground = i;
-        }
+        if (gameObject.Role == GameObjectRole.Site && (gameObject.ComponentSpan.Length > 0 || gameObject.Parent is null))
+            at.Report("role", DiagnosticCodes.SiteNotAFrame);
+        if (gameObject.Role != GameObjectRole.Ground)
+            return;
+        if (ground >= 0)
+            at.Report("role", DiagnosticCodes.GroundTwice, ("first", Invariant.Text(ground)));
+        else
+            ground = index;
     }
 
     /// <summary>Two GameObjects that are there.</summary>

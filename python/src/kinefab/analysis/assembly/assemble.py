@@ -40,6 +40,7 @@ class Assembly:
     freedoms, finite: of each block, in the order of ``solver``'s parts.
     stated: the rigid groups the source itself states.  duplicates: constraints that an explicit joint
     already stands for; their rows are left out.  counted: rows between the source's bodies without them.
+    breakable, mirrored: shape (statements,), those that keep their bodies apart however rigid they are, and the symmetries.
     """
 
     scene: Scene
@@ -57,6 +58,8 @@ class Assembly:
     start: State
     freedoms: list[BlockFreedom]
     finite: list[FiniteFreedom]
+    breakable: BoolArray
+    mirrored: BoolArray
 
     def body_of(self, node: int | None) -> int:
         """The body of a node, 0 for ground."""
@@ -116,7 +119,7 @@ def assemble(scene: Scene, report: Report) -> Assembly:
     breakable = np.array([_stays_apart(s, scene) for s in equations.statements], dtype=bool)
     keeping_step = np.array([_keeps_step(s) for s in equations.statements], dtype=bool)
     while True:
-        body, system = _merge_rigid_pairs(body, system, breakable, mirrored, equations.length)
+        body, system = merged_rigid_pairs(body, system, breakable, mirrored, equations.length)
         edges = edges_of(system)
         blocks = blocks_of(system.bodies, edges)
         relative = relative_system(system, blocks)
@@ -148,6 +151,8 @@ def assemble(scene: Scene, report: Report) -> Assembly:
         start,
         freedoms,
         finite,
+        breakable,
+        mirrored,
     )
 
 
@@ -177,7 +182,7 @@ def _stays_apart(statement: object, scene: Scene) -> bool:
     return min(statement.break_force, statement.break_torque) < np.inf or is_between_led(statement, scene)
 
 
-def _merge_rigid_pairs(
+def merged_rigid_pairs(
     body: IntArray, system: System, breakable: BoolArray, mirrored: BoolArray, length: float
 ) -> tuple[IntArray, System]:
     """Merge bodies whose common rows leave nothing, and again, until none are left."""

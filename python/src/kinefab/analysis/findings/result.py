@@ -29,7 +29,7 @@ class Analysis:
     source: the scene as given.  mobility: freedoms of finite motion; first_order: of the velocities at the
     closed pose.  rows, rank, redundant: of all constraint equations between the source's bodies.
     groups: the rigid groups, with what the constraints fix.  fixed: pairs of nodes that constraints fix to
-    each other (None: ground).  joints, couplings: what to export.  findings: of each joint, by its id.  nodes: middle bodies, to be appended to
+    each other (None: ground).  built: see ``built_together``.  joints, couplings: what to export.  findings: of each joint, by its id.  nodes: middle bodies, to be appended to
     the scene's.  poses: of the scene's own nodes with every constraint closed.
     ranges: of hinges and slides that close no loop, when asked for.  singular: see ``singular_joints``.
     held: of the same mechanism with the bodies that scripts lead standing still, where there are any: what mobility,
@@ -43,6 +43,7 @@ class Analysis:
     rank: int
     groups: RigidGroups
     fixed: tuple[tuple[int | None, int], ...]
+    built: tuple[tuple[int, int], ...]
     islands: list[Island]
     idle: list[IdleFreedom]
     joints: list[Joint]

@@ -15,9 +15,10 @@ from ..content import Content
 from .exporting import prefab_files, script_files, script_folder
 from .folder import own_guids, put_in_place
 from .last import last_prefab
+from .layers import layers_and_tags
 from .names import UNSEEN, why_not_shared
 from .options import PrefabOptions
-from .project import common_folder, elsewhere_in_project, has_script, identity_of, lends_script
+from .project import common_folder, elsewhere_in_project, has_script, identity_of, lends_script, project_of
 
 ENDING = ".prefab"
 
@@ -51,7 +52,8 @@ def _write(content: Content, target: Path, name: str, options: PrefabOptions) ->
     elsewhere = elsewhere_in_project(target)
     identity, lent = identity_of(target, elsewhere), lends_script(target, elsewhere, home)
     scripts = None if options.scripts and has_script(elsewhere) else home
-    files = prefab_files(content, name, options, scripts, identity, last_prefab(target, partial(own_guids, target)))
+    last, words = last_prefab(target, partial(own_guids, target)), layers_and_tags(project_of(target))
+    files = prefab_files(content, name, options, scripts, identity, last, words)
     if lent and not any(file.path == home for file in files):
         files += [script_folder(home), *script_files(home)]
     content.refuse_losses()

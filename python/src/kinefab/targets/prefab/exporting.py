@@ -28,6 +28,7 @@ from .assets.physics_materials import PHYSICS_MATERIAL_ENDING, PHYSICS_MATERIAL_
 from .assets.textures import TextureFile, Textures, reference, shown, twins_of
 from .files import AssetFile
 from .last import GUID, NOTHING, LastExport
+from .layers import LayersAndTags
 from .losses import TARGET, empty_colliders, tell_couplings, tell_losses, tell_names
 from .meshes import mesh_name, mesh_origin
 from .names import file_name, folded, most_bytes, unique
@@ -60,23 +61,30 @@ def prefab_files(
     scripts_folder: str | None,
     identity: str = "",
     last: LastExport = NOTHING,
+    words: LayersAndTags = LayersAndTags(),
 ) -> list[AssetFile]:
     """Everything of the export, the prefab first, folders before what they hold.
 
     name: of the prefab, without ending.  scripts_folder: where a script goes, None where the project has it already.  identity: by what
     guids are told from other exports', "" for the name.  last: what this export takes the place of, whose numbers stay with what is
-    still there.  The report gets what a prefab cannot say.
+    still there.  words: layers and tags of the project.  The report gets what a prefab cannot say.
     """
-    return _Export(content, name, options, scripts_folder, identity).files(last)
+    return _Export(content, name, options, scripts_folder, identity, words).files(last)
 
 
 class _Export:
     """Collects the files; ``folder`` is the one beside the prefab."""
 
     def __init__(
-        self, content: Content, name: str, options: PrefabOptions, scripts_folder: str | None, identity: str
+        self,
+        content: Content,
+        name: str,
+        options: PrefabOptions,
+        scripts_folder: str | None,
+        identity: str,
+        words: LayersAndTags,
     ):
-        self.scripts_folder, self.identity = scripts_folder, identity or name
+        self.scripts_folder, self.identity, self.words = scripts_folder, identity or name, words
         self.content, self.name, self.options = content, name, options
         self.scene = without_switched_off(content.unity(links=options.articulation), TARGET, content.report)
         if options.articulation:
@@ -88,10 +96,11 @@ class _Export:
     def files(self, last: LastExport) -> list[AssetFile]:
         scene, report = self.scene, self.content.report
         tell_losses(scene, self.options, report)
+        self.words.tell(scene, report)
         kept = [c for c in scene.couplings if self.options.scripts and is_kept_by_script(c, scene)]
         tell_couplings([c for c in scene.couplings if c not in kept], report)
         left_out, identities = empty_colliders(scene, report), self.content.scene.identities
-        hierarchy = Hierarchy(scene, self.name, self.dialect, left_out, identities)
+        hierarchy = Hierarchy(scene, self.name, self.dialect, left_out, identities, self.words)
         tell_names(scene, hierarchy.scene_names, report)
         references = References(
             self._meshes(), self._materials(), self._physics_materials(), self._clips(hierarchy)

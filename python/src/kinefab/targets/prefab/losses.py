@@ -33,11 +33,6 @@ SETTINGS = {"gravity", "fixedTimestep", "solverIterations", "solverVelocityItera
 def tell_losses(scene: UnityScene, options: PrefabOptions, report: Report) -> None:
     """Tell what the scene holds and the prefab, with these options, has no field for."""
     for entry in scene.gameObjects:
-        for name in ("layer", "tag"):
-            if word := getattr(entry, name):
-                report.dropped(
-                    f"{name} {word} of {entry.id}", "TARGET_FIELD_DROPPED", field=name, target=TARGET
-                )
         for component in entry.components:
             if isinstance(component, Rigidbody) and not component.isKinematic:
                 _tell_rigidbody(component, entry.id, options, report)
@@ -46,8 +41,10 @@ def tell_losses(scene: UnityScene, options: PrefabOptions, report: Report) -> No
             if isinstance(component, Joint) and not options.dialect.mass_properties:
                 _tell_joint_of_2021(component, entry.id, report)
     for name in sorted(SETTINGS):
-        if getattr(scene.physics, name) != getattr(Physics(), name):
-            report.dropped(f"project setting {name}", "TARGET_FIELD_DROPPED", field=name, target=TARGET)
+        value = getattr(scene.physics, name)
+        if value != getattr(Physics(), name):
+            words = ", ".join(f"{x:g}" for x in (value if isinstance(value, tuple) else (value,)))
+            report.dropped(f"project setting {name}", "TARGET_PROJECT_SETTING", setting=name, value=words)
     _tell_vertex_colors(scene, options, report)
     if options.pipeline is Pipeline.BUILTIN:
         for material in scene.materials:

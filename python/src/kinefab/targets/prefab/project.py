@@ -24,6 +24,12 @@ def common_folder(target: Path) -> Path:
     return assets if assets.name == ASSETS else target.parent
 
 
+def project_of(target: Path) -> Path | None:
+    """The folder that holds the project's ``Assets``; None outside a project."""
+    assets = _assets(_absolute(target))
+    return assets.parent if assets.name == ASSETS else None
+
+
 def elsewhere_in_project(target: Path) -> Elsewhere:
     """Where scripts and prefabs of the target's name are in its project, without the target's own; nothing outside a project."""
     absolute = _absolute(target)

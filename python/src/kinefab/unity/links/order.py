@@ -19,9 +19,11 @@ def with_parents_first(scene: UnityScene) -> UnityScene:
         return scene
     place = {old: new for new, old in enumerate(order)}
     moved = tuple(_moved(scene.gameObjects[old], place) for old in order)
+    ignored = tuple(replace(pair, a=place[pair.a], b=place[pair.b]) for pair in scene.ignoredCollisions)
     return replace(
         scene,
         gameObjects=moved,
+        ignoredCollisions=ignored,
         couplings=_moved(scene.couplings, place),
         animations=_moved(scene.animations, place),
         constraints=_moved(scene.constraints, place),

@@ -63,7 +63,9 @@ def articulated(scene: UnityScene, joints: Mapping[str, ModelJoint], report: Rep
     joints: of the model, by id.  The report gets an error for each joint that no articulation has."""
     if any(isinstance(c, ArticulationBody) for entry in scene.gameObjects for c in entry.components):
         return scene
-    return _Articulation(scene, joints, report).scene_of_links()
+    made = _Articulation(scene, joints, report).scene_of_links()
+    check_overlaps(made, report)  # a joint that is a link now, or on a helper body, keeps other pairs from colliding
+    return made
 
 
 @dataclass(slots=True, eq=False)
@@ -82,7 +84,6 @@ class _Articulation:
     def scene_of_links(self) -> UnityScene:
         self._read()
         parents, closing = self._tree()
-        self._check_loops(parents, closing)
         self._tell_size({child: parent for child, (parent, _) in parents.items()})
         links = {child: self._link(child, parent, edge) for child, (parent, edge) in parents.items()}
         used = {edge for _, edge in parents.values() if edge is not None} | set(closing)
@@ -339,20 +340,6 @@ class _Articulation:
         self.report.kept(
             f"joint {name}", "", "ARTICULATION_LOOP_HELPER", joint=name, object=f"{name} closure"
         )
-
-    def _check_loops(
-        self, parents: Mapping[int, tuple[int | None, Edge | None]], closing: Collection[Edge]
-    ) -> None:
-        """Tell where links overlap that the joint between them keeps from colliding no more, as it is on a helper.  Unity keeps a link
-        from colliding with the one above it."""
-        apart = {frozenset((child, parent)) for child, (parent, _) in parents.items()}
-        loose = {
-            frozenset((edge[0], self._other(edge)))
-            for edge in closing
-            if not self._joint(edge).enableCollision
-        }
-        if loose - apart:
-            check_overlaps(self.scene, self.report, among=loose - apart)
 
     def _connected(self, joint: Joint) -> int | None:
         return self.ground if joint.connectedBody is None else joint.connectedBody

@@ -13,6 +13,7 @@ from ....unity.scene import (
     Component,
     Coupling,
     FixedJoint,
+    GameObject,
     Joint,
     MeshCollider,
     MeshFilter,
@@ -22,6 +23,7 @@ from ....unity.scene import (
     UnityScene,
 )
 from ..last import Document, LastExport
+from ..layers import LayersAndTags
 from ..names import sibling_names
 from ..text.dialects import Dialect
 from ..text.documents import COMPONENT, HEAD, version
@@ -62,6 +64,8 @@ class _Placed:
     name: str
     file_id: int
     transform_id: int
+    layer: int
+    tag: str
     active: bool
     transform: Transform
     parent: int | None
@@ -84,8 +88,10 @@ class Hierarchy:
         dialect: Dialect,
         left_out: frozenset[tuple[int, int]],
         identities: Mapping[str, str],
+        words: LayersAndTags,
     ):
-        """left_out: components that are not written, by object and component.  identities: see ``model.Scene``."""
+        """left_out: components that are not written, by object and component.  identities: see ``model.Scene``.
+        words: of the project."""
         self.scene, self.dialect, self.left_out = scene, dialect, left_out
         self._given = identities
         self.ids = FileIds()
@@ -107,10 +113,11 @@ class Hierarchy:
         file_ids = self.ids.each([("GameObject", identity) for identity in ids])
         transform_ids = self.ids.each([("Transform", identity) for identity in ids])
         for i, (file_id, transform_id) in enumerate(zip(file_ids, transform_ids)):
-            own = objects[i - shift] if i >= shift else None
-            active = own.active if own else True
-            transform = own.transform if own else Transform()
-            self._placed.append(_Placed(self.names[i], file_id, transform_id, active, transform, parents[i]))
+            own = objects[i - shift] if i >= shift else GameObject(ROOT, name)
+            layer, tag = words.layer(own.layer), words.tag(own.tag)
+            self._placed.append(
+                _Placed(self.names[i], file_id, transform_id, layer, tag, own.active, own.transform, parents[i])
+            )
         for i, parent in enumerate(parents):
             if parent is not None:
                 self._placed[i].order = len(self._placed[parent].children)
@@ -295,7 +302,8 @@ class Hierarchy:
     def _game_object(self, placed: _Placed) -> str:
         ids = [placed.transform_id, *(file_id for file_id, _ in placed.components)]
         form = _object_form(len(ids))
-        return form.filled(placed.file_id, *map(local, ids), text(placed.name), int(placed.active))
+        words = placed.layer, text(placed.name), text(placed.tag), int(placed.active)
+        return form.filled(placed.file_id, *map(local, ids), *words)
 
     def _transform(self, placed: _Placed) -> str:
         parent = None if placed.parent is None else self._placed[placed.parent]
@@ -329,9 +337,9 @@ def _object_form(components: int) -> Form:
         **HEAD,
         "serializedVersion": 6,
         "m_Component": [{"component": BLANK}] * components,
-        "m_Layer": 0,
+        "m_Layer": BLANK,
         "m_Name": BLANK,
-        "m_TagString": "Untagged",
+        "m_TagString": BLANK,
         "m_Icon": NULL,
         "m_NavMeshLayer": 0,
         "m_StaticEditorFlags": 0,

@@ -38,6 +38,9 @@ internal enum RowFlags : ushort
 
     /// <summary>The limit is a cone's; not a PhysX flag.</summary>
     Cone = 512,
+
+    /// <summary>C is to fall at Stiffness of itself a second, and VelocityTarget is that speed where the row is; not a PhysX flag.</summary>
+    Motion = 1024,
 }
 
 /// <summary>
@@ -79,7 +82,7 @@ internal struct ConstraintRow
     /// <summary>Greatest impulse, as Minimum.</summary>
     public double Maximum;
 
-    /// <summary>Not written unless Spring is set, nor is Damping.</summary>
+    /// <summary>Not written unless Spring or Motion is set, nor is Damping unless Spring is.</summary>
     public double Stiffness;
     public double Damping;
 

@@ -196,13 +196,29 @@ internal sealed class D6Joint : JointModel
             return;
         }
 
-        if (twist)
+        if (twist && writer.IsMotion(DriveTwist))
+        {
+            AngularMotion(ref writer, f, 0, x1, DriveTwist);
+        }
+        else if (twist)
         {
             double error = double.IsNaN(DriveTwistAngle) ? -2 * delta.X : DriveTwistAngle - Followed(SwingTwist.TwistAngle(f.Relative.Rotation));
             writer.AngularDrive(x1, DriveAngularVelocity.X, error, DriveTwist);
         }
 
-        if (swing)
+        if (swing && writer.IsMotion(DriveSwing))
+        {
+            if (isSwing1Free)
+            {
+                AngularMotion(ref writer, f, 1, y1, DriveSwing);
+            }
+
+            if (isSwing2Free)
+            {
+                AngularMotion(ref writer, f, 2, z1, DriveSwing);
+            }
+        }
+        else if (swing)
         {
             Vector3d x = delta * Vector3d.UnitX;
             if (isSwing1Free)
@@ -215,6 +231,16 @@ internal sealed class D6Joint : JointModel
                 writer.AngularDrive(z1, DriveAngularVelocity.Z, -x.Y, DriveSwing);
             }
         }
+    }
+
+    // C = the angle about an axis that is left to the goal, by the shorter way, J its gradient: what is prescribed is met at whatever swing.
+    private void AngularMotion(ref RowWriter writer, in JointFrames f, int axis, Vector3d axis1, in DriveModel drive)
+    {
+        Quaterniond at = f.Relative.Rotation;
+        Quaterniond to = DrivePose.Rotation;
+        double goal = axis == 0 && !double.IsNaN(DriveTwistAngle) ? DriveTwistAngle : 2 * Trigonometry.Atan2(to.Vector[axis], to.W);
+        double angle = SwingTwist.Nearest(2 * Trigonometry.Atan2(at.Vector[axis], at.W), axis == 0 && !double.IsNaN(DriveTwistAngle) ? LastTwist : goal);
+        writer.AngularDrive(SwingTwist.TwistGradient(f.Axis0(axis), axis1), 0, goal - angle, drive);
     }
 
     // Both swings limited: one row on the elliptic cone, error the sine of the distance. One limited, the other locked:

@@ -67,6 +67,12 @@ internal struct DriveModel
     /// <summary>Gains are per unit of effective mass of the body pair.</summary>
     public bool IsAcceleration;
 
+    /// <summary>
+    /// Where limits are met exactly, see <see cref="JointModel.LimitsFromAfar"/>, the goal is no spring's but a prescribed motion's: the gap closes at
+    /// Stiffness / Damping of itself a second, by whatever force up to ForceLimit.
+    /// </summary>
+    public bool IsMotion;
+
     /// <summary>A drive without gains has no rows.</summary>
     public readonly bool IsActive => Stiffness != 0 || Damping != 0;
 }

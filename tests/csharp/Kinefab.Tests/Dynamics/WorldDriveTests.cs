@@ -152,6 +152,70 @@ public sealed class WorldDriveTests
         Assert.That(SmallScene.Way(world).X, Is.EqualTo(0.15).Within(1e-5));
     }
 
+    /// <summary>In exact a goal prescribes the motion: any load is moved as none would be. The spring of before was 6e-6 rad behind under 1 N m.</summary>
+    [Test]
+    public void DriveTo_Exact_IsMetWhateverTheLoad()
+    {
+        World hinge = SmallScene.Create(new HingeJoint { Axis = Vector3d.UnitZ }, solver: SolverKind.Exact);
+        World slide = SmallScene.Create(Only(Coordinate.Y, swap: true), solver: SolverKind.Exact);
+        World twist = SmallScene.Create(Only(Coordinate.AngularX, swap: true), solver: SolverKind.Exact);
+        World swing = SmallScene.Create(Only(Coordinate.AngularZ, swap: false), solver: SolverKind.Exact);
+        const double goal = 40;
+        const double steps = 30;
+        double left = Math.Pow(1 / (1 + SmallScene.Dt / 0.1 + 0.5 * Math.Pow(SmallScene.Dt / 0.1, 2)), steps);
+
+        foreach ((World world, Coordinate coordinate) in new[] { (hinge, Coordinate.Angle), (slide, Coordinate.Y), (twist, Coordinate.AngularX), (swing, Coordinate.AngularZ) })
+        {
+            world.Joints[0].DriveTo(coordinate, goal);
+            for (int i = 0; i < steps; i++)
+            {
+                world.Bodies[0].AddTorque(new Vector3d(500, -300, 400));
+                world.Bodies[0].AddForce(new Vector3d(-1000, 2000, 500));
+                world.Step(SmallScene.Dt);
+            }
+
+            Assert.That(world.Joints[0].Coordinate(coordinate), Is.EqualTo(goal * (1 - left)).Within(1e-5), $"{coordinate}");
+            Assert.That((world.Stops, world.Findings.Diagnostics.Count), Is.EqualTo((0, 0)), $"{coordinate}");
+        }
+    }
+
+    /// <summary>A drive's force limit bounds what may be given to prescribe the motion, which then comes later.</summary>
+    [Test]
+    public void DriveTo_WithAForceLimit_GivesNoMore()
+    {
+        const double force = 3;
+        ConfigurableJoint joint = Only(Coordinate.X, swap: false);
+        joint = joint with { XDrive = new JointDrive { PositionDamper = 1, MaximumForce = force } };
+        World world = SmallScene.Create(joint, new Rigidbody { Mass = 2, LinearDamping = 0 }, solver: SolverKind.Exact);
+
+        world.Joints[0].DriveTo(Coordinate.X, 0.01);
+        for (int i = 1; i <= 4; i++)
+        {
+            world.Step(SmallScene.Dt);
+            Assert.That(world.Bodies[0].LinearVelocity.Length, Is.EqualTo(force / 2 * i * SmallScene.Dt).Within(1e-9));
+        }
+
+        SmallScene.Run(world, 5);
+        Assert.That(world.Joints[0].Coordinate(Coordinate.X), Is.EqualTo(0.01).Within(1e-6));
+        Assert.That(world.Stops, Is.Zero);
+    }
+
+    /// <summary>A goal beyond a limit is held there, without a stop.</summary>
+    [Test]
+    public void DriveTo_BeyondALimit_RestsAtIt([Values] SolverKind solver)
+    {
+        World world = SmallScene.Create(new HingeJoint { Axis = Vector3d.UnitZ, UseLimits = true, Limits = new JointLimits { Min = -20, Max = 50 } }, solver: solver);
+
+        world.Joints[0].DriveTo(Coordinate.Angle, 90);
+        SmallScene.Run(world, 2);
+
+        Assert.That(world.Joints[0].Coordinate(Coordinate.Angle), Is.EqualTo(50).Within(solver == SolverKind.Exact ? 1e-6 : 1));
+        world.Joints[0].DriveTo(Coordinate.Angle, 10);
+        SmallScene.Run(world, 2);
+        Assert.That(world.Joints[0].Coordinate(Coordinate.Angle), Is.EqualTo(10).Within(1e-3));
+        Assert.That((world.Stops, world.Findings.Diagnostics.Count), Is.EqualTo((0, 0)));
+    }
+
     [Test]
     public void DriveTo_CoordinateOfAnotherKind_Throws()
     {

@@ -1,3 +1,4 @@
+using System;
 using Kinefab.Joints;
 
 namespace Kinefab.Dynamics.Rattle;
@@ -13,6 +14,9 @@ internal enum RowKind : byte
 
     /// <summary>A speed held within force limits.</summary>
     SpeedMotor,
+
+    /// <summary>C falls as prescribed, by an impulse within force limits.</summary>
+    Motion,
 
     /// <summary>C stays positive by an impulse that is not negative.</summary>
     Limit,
@@ -69,6 +73,9 @@ internal struct ScalarRow
 
     /// <summary>C at the start of the step.</summary>
     public double StartError;
+
+    /// <summary>C that a prescribed motion is to have at the end of the step.</summary>
+    public double EndError;
 
     /// <summary>
     /// C up to which a limit may stand passed, not above 0: where it stood when closing the pose had failed, as limits that contradict each
@@ -131,7 +138,7 @@ internal struct ScalarRow
             return isIdle || (Built.Has(RowFlags.Limit) && StartError > reach) ? RowKind.None : RowKind.Spring;
         }
 
-        return Built.Has(RowFlags.Limit) ? RowKind.Limit : RowKind.SpeedMotor;
+        return Built.Has(RowFlags.Limit) ? RowKind.Limit : Built.Has(RowFlags.Motion) ? RowKind.Motion : RowKind.SpeedMotor;
     }
 
     /// <summary>What the matrix is to have of it.</summary>
@@ -147,6 +154,29 @@ internal struct ScalarRow
         bool isForce = areForces && Built.Has(RowFlags.HasDriveLimit);
         Low = Built.Minimum * (isForce ? h : 1);
         High = Built.Maximum * (isForce ? h : 1);
+    }
+
+    /// <summary>
+    /// The C that is wanted, of e^(-x) to second order and never beyond the goal. A force without limit ends at what no mechanism needs, so that what
+    /// the motion cannot move, as a limit or a dead point, has a finite answer.
+    /// </summary>
+    /// <param name="h">Step, s.</param>
+    /// <param name="response">J M^-1 J^T, 1/kg or 1/(kg m^2).</param>
+    public void SetMotion(double h, double response)
+    {
+        const double mostAcceleration = 1e6;
+        EndError = StartError / Growth(h);
+        double most = mostAcceleration * Math.Max(1, Math.Abs(StartError)) * h / response;
+        Low = Math.Max(Low, -most);
+        High = Math.Min(High, most);
+    }
+
+    /// <summary>By how much a prescribed motion's C was larger a time before.</summary>
+    /// <param name="time">s.</param>
+    public readonly double Growth(double time)
+    {
+        double x = Built.Stiffness * time;
+        return 1 + x + x * x / 2;
     }
 
     /// <param name="h">Step, s.</param>

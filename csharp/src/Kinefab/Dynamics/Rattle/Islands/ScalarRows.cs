@@ -99,7 +99,7 @@ internal sealed class ScalarRows
     }
 
     /// <summary>Whether a block that has one scalar row has a motor, whose row about an axis that stays is the same wherever it is built.</summary>
-    public bool HasMotorAlone(int block) => _rows[_first[block]].IsActive && !_rows[_first[block]].Built.Has(RowFlags.Spring);
+    public bool HasMotorAlone(int block) => _rows[_first[block]].FindKind(0) == RowKind.SpeedMotor;
 
     /// <summary>Forgets impulses and states.</summary>
     public void ClearHistory()

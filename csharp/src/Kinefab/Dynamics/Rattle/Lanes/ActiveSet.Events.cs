@@ -66,7 +66,7 @@ internal sealed partial class ActiveSet<V>
                 scalar.StartSpeed = StartSpeed(scalar);
                 scalar.State = scalar.Built.GeometricError - scalar.Allowed <= reach ? RowState.Free : RowState.AtBound;
             }
-            else if (scalar.Kind != RowKind.SpeedMotor || !double.IsInfinity(scalar.Low) || !double.IsInfinity(scalar.High))
+            else if (!IsEndless(scalar))
             {
                 scalar.State = RowState.AtBound;
             }
@@ -105,6 +105,7 @@ internal sealed partial class ActiveSet<V>
             {
                 RowKind.Limit => -Math.Max(0, scalar.StartError) / h,
                 RowKind.SpeedMotor => scalar.Built.VelocityTarget,
+                RowKind.Motion => (scalar.EndError - scalar.StartError) / h,
                 _ => (scalar.RestImpulse - _batch.Work.PositionImpulses[scalar.Index]) / scalar.ImplicitDamping,
             };
         }
@@ -132,7 +133,12 @@ internal sealed partial class ActiveSet<V>
 
             double speed = StartSpeed(scalar);
             double slack = Least * (1 + Math.Abs(scalar.StartSpeed));
-            double wanted = scalar.Kind == RowKind.Spring ? (scalar.RestImpulse - scalar.ImpulseFirstHalf) / scalar.ImplicitDamping - speed : scalar.Built.VelocityTarget - speed;
+            double wanted = scalar.Kind switch
+            {
+                RowKind.Spring => (scalar.RestImpulse - scalar.ImpulseFirstHalf) / scalar.ImplicitDamping,
+                RowKind.Motion => (scalar.EndError - scalar.StartError) / h,
+                _ => scalar.Built.VelocityTarget,
+            } - speed;
             bool leaves = scalar.Kind == RowKind.Limit
                 ? speed + Math.Max(0, scalar.StartError) / h < -slack
                 : (scalar.ImpulseFirstHalf >= scalar.High && wanted < -slack) || (scalar.ImpulseFirstHalf <= scalar.Low && wanted > slack);
@@ -142,6 +148,10 @@ internal sealed partial class ActiveSet<V>
 
         return isChanged;
     }
+
+    // Whether a motor or prescribed motion holds its speed through a blow.
+    private static bool IsEndless(in ScalarRow scalar) =>
+        scalar.Kind is RowKind.SpeedMotor or RowKind.Motion && double.IsInfinity(scalar.Built.Minimum) && double.IsInfinity(scalar.Built.Maximum);
 
     private static bool IsHardLimit(in ConstraintRow row) => row.Has(RowFlags.Limit) && !row.Has(RowFlags.Spring);
 }

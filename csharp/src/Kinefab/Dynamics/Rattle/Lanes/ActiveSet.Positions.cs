@@ -24,6 +24,7 @@ internal sealed partial class ActiveSet<V>
                 error = scalar.Kind switch
                 {
                     RowKind.Limit => scalar.End.GeometricError - scalar.Allowed,
+                    RowKind.Motion => scalar.End.GeometricError - scalar.EndError,
                     RowKind.SpeedMotor => h * (DriftSpeed(scalar) - scalar.Built.VelocityTarget),
                     _ => h * (DriftSpeed(scalar) + (scalar.ImpulseFirstHalf / scalar.Theta - scalar.RestImpulse) / scalar.ImplicitDamping),
                 };
@@ -119,6 +120,9 @@ internal sealed partial class ActiveSet<V>
             case RowKind.SpeedMotor:
                 double excess = DriftSpeed(scalar) - scalar.Built.VelocityTarget;
                 return (scalar.ImpulseFirstHalf >= high && excess > tolerance) || (scalar.ImpulseFirstHalf <= low && excess < -tolerance);
+            case RowKind.Motion:
+                double ahead = scalar.End.GeometricError - scalar.EndError;
+                return (scalar.ImpulseFirstHalf >= high && ahead > tolerance) || (scalar.ImpulseFirstHalf <= low && ahead < -tolerance);
             default:
                 double wanted = scalar.Theta * (scalar.RestImpulse - scalar.ImplicitDamping * DriftSpeed(scalar));
                 double slack = scalar.Theta * scalar.ImplicitDamping * tolerance;

@@ -29,6 +29,7 @@ internal sealed partial class ActiveSet<V>
                     scalar.State = RowState.AtBound;
                     break;
                 case RowKind.SpeedMotor:
+                case RowKind.Motion:
                     if (scalar.Theta == 1)
                     {
                         scalar.State = RowState.AtBound;

@@ -78,14 +78,16 @@ internal sealed partial class ActiveSet<V>
         return sum;
     }
 
-    /// <summary>The most that motors can have given since the start of the step, J.</summary>
-    public double MotorWorkBound()
+    /// <summary>The most that motors and prescribed motions can have given since the start of the step, J.</summary>
+    /// <param name="dt">Step, s.</param>
+    public double MotorWorkBound(double dt)
     {
         double sum = 0;
         for (int i = 0; i < _rows.Length; i++)
         {
             ref ScalarRow scalar = ref _rows[i];
-            sum += scalar.IsActive && !scalar.Built.Has(RowFlags.Spring) ? Math.Abs(scalar.Built.VelocityTarget * _batch.Work.TotalImpulses[scalar.Index]) : 0;
+            double fastest = scalar.Built.VelocityTarget * (scalar.Built.Has(RowFlags.Motion) ? scalar.Growth(dt) : 1);
+            sum += scalar.IsActive && !scalar.Built.Has(RowFlags.Spring) ? Math.Abs(fastest * _batch.Work.TotalImpulses[scalar.Index]) : 0;
         }
 
         return sum;

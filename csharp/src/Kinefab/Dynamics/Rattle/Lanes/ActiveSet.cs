@@ -85,6 +85,11 @@ internal sealed partial class ActiveSet<V>
             scalar.StartSpeed = StartSpeed(scalar);
             double response = Response(scalar);
             scalar.SetBounds(h, _batch.Shape.Blocks[scalar.Block].Joint!.DriveLimitsAreForces);
+            if (scalar.Kind == RowKind.Motion)
+            {
+                scalar.SetMotion(h, response);
+            }
+
             if (scalar.Kind == RowKind.Spring)
             {
                 scalar.SetSpring(h, response, isImplicit);

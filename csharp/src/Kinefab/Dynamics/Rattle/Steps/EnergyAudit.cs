@@ -41,7 +41,7 @@ internal readonly struct EnergyAudit
         _forced = 0;
         _stored = batch.ActiveSet?.StoredEnergy(dt) ?? 0;
         _sprung = batch.ActiveSet?.SpringWork() ?? 0;
-        _driven = (batch.ActiveSet?.MotorWorkBound() ?? 0) + KinematicWorkBound(batch);
+        _driven = (batch.ActiveSet?.MotorWorkBound(dt) ?? 0) + KinematicWorkBound(batch);
         double[] a = batch.Bodies;
         for (int body = 0; body < batch.Shape.MovingBodies; body++)
         {

@@ -98,7 +98,7 @@ def cases(program: str) -> list:
         held = pair("parallel", side("Base", "line"), {**side("Base", "line"), "component": "ground"})
         kinds = machine(*BOTH.values(), *SOLIDWORKS.values(), *ranges, hinge, held)
         return [
-            SolidWorks(described(kinds)).record(), SolidWorks(described(as_mates(rows))).record(),
+            SolidWorks(described(kinds)).record(), SolidWorks(described(as_mates(rows))).record(GetConfigurationCount=2),
             SolidWorks(described(block("mm", "Z")), solidworks_bodies).record(),
         ]  # fmt: skip
     rows["assemblyConstraints"] = [["Constraint1", "M/Arm", "M/Base"]]

@@ -409,6 +409,14 @@ def test_a_limit_that_the_configuration_chooses_is_told(tmp_path):
     assert told and {d.code for d in told} == {"CAPTURE_MEMBER_FAILED"}, [str(d) for d in report.diagnostics]
 
 
+@pytest.mark.parametrize(("chosen", "told"), [("default", None), ("List_a=Long;Width=0.2+meter", "List_a=Long;Width=0.2+meter")])
+def test_a_configuration_other_than_the_usual_one_is_named(tmp_path, chosen, told):
+    held = answers(described(limited()))
+    held["definition"]["rootAssembly"]["configuration"] = chosen
+    found = capture("onshape", held, tmp_path, "Z")
+    assert json.loads(found.path.read_text("utf-8"))["meta"].get("configuration") == told
+
+
 def test_a_range_of_a_ball_is_told(tmp_path):
     values = limited()
     values["joints"][0] |= {"type": "ball", "dof": []}

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import json
+
 import numpy as np
 import pytest
 from cad.captures import capture, scene, scene_differences
@@ -10,6 +12,7 @@ from cad.gears import gear_pair
 from cad.inventor import Inventor
 from cad.solidworks import SolidWorks
 from kinefab.diagnostics import Report
+from kinefab.sources import read
 
 SLIDERS = ("M07", "M08", "M09")
 
@@ -152,3 +155,20 @@ def test_what_is_lightweight_is_told(what: str, answer: dict, told: bool, tmp_pa
     assert len(found) == told
     assert all("1 components (" in message and one["Name2"] in message for message in found)
     assert sum(o.feature == "documents of components" for o in report.outcomes) == told
+
+
+@pytest.mark.parametrize(("count", "told"), [(1, None), (3, "Reclined")])
+def test_one_of_several_configurations_is_named(tmp_path, count, told):
+    values = mechanism("lever/lever.bundle.json")
+    double = SolidWorks(described(values))
+    found = capture("solidworks", double.record(GetConfigurationCount=count), tmp_path, values["meta"]["up"])
+    assert json.loads(found.path.read_text("utf-8"))["meta"].get("configuration") == told
+    assert read(found.path, Report()).source.configuration == (told or "")
+
+
+def test_a_record_without_that_question_is_read(tmp_path):
+    values = mechanism("lever/lever.bundle.json")
+    asked = SolidWorks(described(values)).record()
+    record = [{k: v for k, v in own.items() if not k.startswith("GetConfigurationCount")} for own in asked]
+    found = capture("solidworks", record, tmp_path, values["meta"]["up"])
+    assert "configuration" not in json.loads(found.path.read_text("utf-8"))["meta"]

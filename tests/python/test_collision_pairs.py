@@ -153,6 +153,16 @@ def test_a_pair_that_collides_in_spite_of_its_groups_does(tmp_path: Path):
     assert touching(tmp_path / "a.kinefab") == pairs(("A", "B"), ("B", "C"))
 
 
+@pytest.mark.parametrize("options", [{}, {"closures": "minimal"}, {"ground": "world"}])
+def test_a_written_scene_keeps_a_pair_that_collides_in_spite_of_its_groups(tmp_path: Path, options: dict[str, str]):
+    """It lists no such pair: those that it does not keep apart collide, also where it is made anew."""
+    scene = grouped(("ghosts",), ("stones",), ("stones",))
+    scene.colliding.append(Colliding(0, 1, "contact pair ghost"))
+    kinefab.export(scene, tmp_path / "a.kinefab")
+    kinefab.export(tmp_path / "a.kinefab", tmp_path / "b.kinefab", kinefab.ExportOptions(**options))
+    assert touching(tmp_path / "b.kinefab") == pairs(("A", "B"), ("B", "C"))
+
+
 def test_gltf_tells_a_pair_that_collides_in_spite_of_its_groups(tmp_path: Path):
     scene = grouped(("ghosts",), ("stones",), ("stones",))
     scene.colliding.append(Colliding(0, 1, "contact pair ghost"))

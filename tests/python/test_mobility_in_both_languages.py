@@ -11,6 +11,7 @@ import subprocess
 import kinefab
 import numpy as np
 import pytest
+from golden import golden_pairs
 from kinefab.analysis import analyse
 from random_mechanisms import mechanism
 
@@ -45,6 +46,28 @@ def test_both_count_the_same_in_random_mechanisms(tmp_path):
     found = {said["file"]: differences(said) for said in counted(tmp_path)}
     assert len(found) == MECHANISMS - lost
     assert {file: said for file, said in found.items() if said} == {}
+
+
+@needs_tool
+def test_every_closure_moves_as_the_golden_scenes(tmp_path):
+    """These are exported with the fewest rows; with all rows, as is usual, mobility, islands and what the bodies may do are the same."""
+    golden, usual = tmp_path / "golden", tmp_path / "usual"
+    golden.mkdir()
+    usual.mkdir()
+    for i, (source, scene) in enumerate(golden_pairs()):
+        kinefab.export(source, usual / f"{i:02d}.kinefab", kinefab.ExportOptions(colliders="none", ground="world"))
+        kinefab.export(scene, golden / f"{i:02d}.kinefab")
+    pairs = list(zip(counted(golden), counted(usual), strict=True))
+    assert len(pairs) == len(golden_pairs())
+    for few, all_rows in pairs:
+        mobilities = [
+            (m["mobility"], m["firstOrderMobility"], sorted((i["mobility"], i["loops"]) for i in m["islands"]),
+             sorted((b["translations"], b["rotations"]) for b in m["bodies"]))
+            for m in (few["mobility"], all_rows["mobility"])
+        ]  # fmt: skip
+        assert mobilities[0] == mobilities[1], all_rows["file"]
+        codes = [[d["code"] for d in said["diagnostics"]] for said in (few, all_rows)]
+        assert codes[0] == codes[1], all_rows["file"]
 
 
 APART_ONCE = {

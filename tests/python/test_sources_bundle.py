@@ -5,6 +5,7 @@ from __future__ import annotations
 import json
 import math
 
+import kinefab
 import numpy as np
 import pytest
 from jsonschema import Draft202012Validator
@@ -34,6 +35,24 @@ def test_fixture_obeys_the_schema(name):
     schema = json.loads((schema_directory() / "bundle.schema.json").read_text(encoding="utf-8"))
     values = json.loads((FIXTURES / f"{name}.bundle.json").read_text(encoding="utf-8"))
     assert list(Draft202012Validator(schema).iter_errors(values)) == []
+
+
+def test_a_configuration_is_the_sources(tmp_path):
+    """Of a bundle and of its lines, and of the scene that is written of them."""
+    values = json.loads((FIXTURES / "hinge_slider_yup" / "hinge_slider.bundle.json").read_text("utf-8"))
+    values["meta"]["configuration"] = "Long arm"
+    (tmp_path / "a.bundle.json").write_text(json.dumps(values), "utf-8")
+    lines = (FIXTURES / "lever" / "lever.csv").read_text("utf-8").splitlines()
+    lines.insert(next(i for i, line in enumerate(lines) if line.startswith("META")) + 1, "META;configuration;Long arm")
+    (tmp_path / "a.csv").write_text("\n".join(lines) + "\n", "utf-8")
+    for name in ("a.bundle.json", "a.csv"):
+        report = Report()
+        assert sources.read(tmp_path / name, report).source.configuration == "Long arm"
+        assert report.diagnostics == []
+    for mesh in (FIXTURES / "hinge_slider_yup").glob("*.obj"):
+        (tmp_path / mesh.name).write_bytes(mesh.read_bytes())
+    target = kinefab.export(tmp_path / "a.bundle.json", tmp_path / "a.kinefab").path
+    assert json.loads(target.read_text("utf-8"))["source"]["configuration"] == "Long arm"
 
 
 def test_z_up_centimetres_become_y_up_metres(lever):

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import math
+import random
 from dataclasses import replace
 from pathlib import Path
 from typing import Any
@@ -15,6 +16,7 @@ from kinefab.diagnostics import Outcome, Report
 from kinefab.model import Coupling, CouplingKind, Scene, Term
 from kinefab.sources import read
 from kinefab.views.overview import describe
+from random_mechanisms import mechanism
 
 
 
@@ -173,3 +175,21 @@ def test_usd_keeps_them(tmp_path):
     }  # fmt: skip
     (stay,) = (joint for joint in scene.joints if joint.name == "Stay")
     assert [math.degrees(x) for x in (stay.freedoms[3].lower, stay.freedoms[3].upper)] == pytest.approx([-10, 20])
+
+
+@pytest.mark.parametrize("seed", range(12))
+def test_a_random_mechanism_is_the_one_without_them(tmp_path, seed):
+    """Every object, component and count, whichever joints are off; of the source alone the two differ."""
+    chance, found = random.Random(seed), []
+    off = {joint.id for joint in mechanism(seed).joints if chance.random() < 0.4}
+    for name in ("off", "without"):
+        scene = mechanism(seed)
+        if name == "off":
+            scene.joints = [replace(joint, enabled=joint.id not in off) for joint in scene.joints]
+        else:
+            scene.joints = [joint for joint in scene.joints if joint.id not in off]
+        content, _ = exported(scene, tmp_path / f"{name}.kinefab")
+        for entry in content["gameObjects"]:
+            entry["components"] = [c for c in entry.get("components", ()) if c.get("enabled", True)]
+        found.append({key: content.get(key) for key in ("gameObjects", "couplings", "analysis", "ignoredCollisions")})
+    assert found[0] == found[1]

@@ -38,7 +38,7 @@ class SolidWorks:
 
     def record(self, kind: int = 2, **changes: Any) -> list[dict[str, Any]]:
         a, root = self.answers, self.assembly.root
-        configuration = a.made("Configuration", GetRootComponent3={"true": self.top})
+        configuration = a.made("Configuration", Name="Reclined", GetRootComponent3={"true": self.top})
         manager = a.made("ConfigurationManager", ActiveConfiguration=configuration)
         features = self._features(root, True)
         number = len(a.objects)
@@ -46,7 +46,7 @@ class SolidWorks:
             a.objects[data["object"]][f"AccessSelections(#{number + 1}, null)"] = True
         model = a.made("Model", **{
             "ConfigurationManager": manager, "Extension": a.made("Extension", NeedsRebuild2=0), "LengthUnit": 0,
-            "GetType": kind, "GetTitle": f"{root}.SLDASM", "GetPathName": f"C:\\Work\\{root}.SLDASM",
+            "GetType": kind, "GetConfigurationCount": 1, "GetTitle": f"{root}.SLDASM", "GetPathName": f"C:\\Work\\{root}.SLDASM",
             "GetSaveFlag": False, "FirstFeature": features, **changes,
         })  # fmt: skip
         a.application(

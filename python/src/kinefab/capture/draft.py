@@ -70,6 +70,7 @@ class Draft:
     """A bundle that is being captured; lengths in ``length``, angles in radians, masses in kilograms.
 
     definitions: of each name and identity that the program has for a part, what the bundle calls it.
+    configuration: which of several of the assembly it is, "" for the only one.
     owners: of a joint or constraint, by its id, the assembly in whose frame the program states it: what the self check
     may try.  turned: the coordinates, by joint and name, that count the other way than the program shows them; ratios of
     couplings are the program's.  meshes: of a definition, by its name.  ids: of joints and constraints, called: what
@@ -82,6 +83,7 @@ class Draft:
     report: Report = field(default_factory=Report)
     version: str = ""
     source: str = ""
+    configuration: str = ""
     dirty: bool = False
     materials: dict[str, Record] = field(default_factory=dict[str, Record])
     components: list[Record] = field(default_factory=list[Record])
@@ -159,6 +161,7 @@ class Draft:
     def settle(self) -> None:
         """Leave out, and tell, what holds no finite numbers, stands on a component or joint that was lost, or ties one to itself."""
         self.version, self.source = _text(self.version), _text(self.source)
+        self.configuration = _text(self.configuration)
         self.materials = {name: found for name, found in self.materials.items() if _finite(found)}
         self.notes = {key: found for key, found in self.notes.items() if _finite(found)}
         lists = (self.components, self.joints, self.couplings, self.constraints, self.dof)
@@ -221,6 +224,8 @@ class Draft:
         }
         if self.source:
             meta["sourceFile"] = self.source
+        if self.configuration:
+            meta["configuration"] = self.configuration
         if self.notes:
             meta["extras"] = self.notes
         return {"meta": meta, **{key: list(records) for key, records in lists if records}}

@@ -60,21 +60,20 @@ class Scene:
 
     offers: what else the source can give, by the name of the option that asks for it: names of its variants
         (``variant``: "set=name"), of its keyframes (``keyframe``).
-    switched_off: joints that hold nothing.  A reader, or a script, leaves them in ``joints``, not ``enabled``; they come here before
-        anything is counted (``with_disabled_apart``).
     apart: pairs of bodies that pass through each other by the source's own rule, beside those that joints keep from colliding.
     colliding: pairs of bodies that collide by the source's own rule, whatever their groups; a joint between such two has ``collide``.
     identities: by the id of a node, joint, constraint or coupling, where ids are made of names that people change: what it is in
         the source whatever it is called there.  By it a prefab knows its objects again.
     counted: ids that say nothing of the one that has them, as the source has no name for it and its reader counted: of nodes and
         joints, of a node's bodies ``NODE/body:NAME``, of its colliders ``NODE/collider:NAME``.
+    switched_off: joints that hold nothing.  A reader, or a script, leaves them in ``joints``, not ``enabled``; they come here before
+        anything is counted (``with_disabled_apart``).
     """
 
     nodes: list[Node] = field(default_factory=list[Node])
     meshes: list[Mesh] = field(default_factory=list[Mesh])
     surfaces: list[Surface] = field(default_factory=list[Surface])
     joints: list[Joint] = field(default_factory=list[Joint])
-    switched_off: list[Joint] = field(default_factory=list[Joint])
     couplings: list[Coupling] = field(default_factory=list[Coupling])
     constraints: list[Constraint] = field(default_factory=list[Constraint])
     dof_records: list[DofRecord] = field(default_factory=list[DofRecord])
@@ -87,6 +86,7 @@ class Scene:
     colliding: list[Colliding] = field(default_factory=list[Colliding])
     identities: Mapping[str, str] = field(default_factory=dict[str, str])
     counted: set[str] = field(default_factory=set[str])
+    switched_off: list[Joint] = field(default_factory=list[Joint])
 
     def __repr__(self) -> str:
         """In one line: all its parts and meshes are in it."""

@@ -24,14 +24,7 @@ def with_groups_apart(scene: UnityScene, stated: Scene, report: Report) -> Unity
     stated: what it was mapped from, with its pairs that collide whatever their groups.
     """
     bodies = bodies_of(scene)
-    groups: dict[int | None, set[str]] = {}
-    for i, entry in enumerate(scene.gameObjects):
-        for component in entry.components:
-            if isinstance(component, Collider) and component.enabled and not component.isTrigger:
-                groups.setdefault(bodies[i], set()).add(component.group)
-    names = {name for own in groups.values() for name in own}
-    one_way = ignored_groups(names, stated.extras)
-    ignored = {name: one_way[name] | {other for other in names if name in one_way[other]} for name in names}
+    groups, ignored = _groups(scene, bodies, stated.extras)
     if not any(ignored.values()):
         return scene
     whole, partly = _pairs(scene, groups, ignored)
@@ -51,7 +44,35 @@ def with_groups_apart(scene: UnityScene, stated: Scene, report: Report) -> Unity
     return with_apart(scene, pairs)
 
 
+def colliding_in_spite_of_groups(scene: UnityScene) -> list[tuple[int, int]]:
+    """Pairs of bodies, by their objects, that a written scene lets collide though no two colliders of theirs do by their groups: the
+    source states them.  Where groups were too many to be kept it is not known of any."""
+    bodies = bodies_of(scene)
+    groups, ignored = _groups(scene, bodies, scene.extras)
+    if not any(ignored.values()):
+        return []
+    whole, _ = _pairs(scene, groups, ignored)
+    passing = joined_pairs(scene, bodies) | {frozenset((pair.a, pair.b)) for pair in scene.ignoredCollisions}
+    if len(whole) > MOST_JOINTS:
+        return []
+    return [(a, b) for a, b in whole if a is not None and b is not None and frozenset((a, b)) not in passing]
+
+
 Pairs = list[tuple[int | None, int | None]]
+
+
+def _groups(
+    scene: UnityScene, bodies: list[int | None], extras: Mapping[str, object]
+) -> tuple[dict[int | None, set[str]], dict[str, set[str]]]:
+    """Of each body the groups of its colliders, and of each group those that it ignores."""
+    groups: dict[int | None, set[str]] = {}
+    for i, entry in enumerate(scene.gameObjects):
+        for component in entry.components:
+            if isinstance(component, Collider) and component.enabled and not component.isTrigger:
+                groups.setdefault(bodies[i], set()).add(component.group)
+    names = {name for own in groups.values() for name in own}
+    one_way = ignored_groups(names, extras)
+    return groups, {name: one_way[name] | {other for other in names if name in one_way[other]} for name in names}
 
 
 def _pairs(

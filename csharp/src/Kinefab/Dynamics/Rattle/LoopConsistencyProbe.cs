@@ -10,7 +10,7 @@ namespace Kinefab.Dynamics.Rattle;
 /// solution holds to the letter where Unity's soft joints let the mechanism move. Such a loop has a velocity that all
 /// anchors allow and that turns the axes apart only slowly; that stays so when it is followed for a finite way. Of a loop
 /// near a singular pose the same is true there, but not further on; of one that moves, or is singular, the axes' speed is 0;
-/// of a stiff frame it is of the order of the motion.
+/// of a stiff frame it is of the order of the motion, or, where the frame is wide and bends, of the joints' motion.
 /// Masses play no part: each body has unit moments, and a mass that weighs the levers' mean length as one radian.
 /// </summary>
 internal sealed class LoopConsistencyProbe
@@ -26,7 +26,7 @@ internal sealed class LoopConsistencyProbe
     private const double Way = 0.15;
 
     // Speed of the axes against the fastest body's: below the least a loop closes as far as motion shows; below the next what
-    // is off may be files' rounding, and angles held a little softer suffice; above the most it is a frame.
+    // is off may be files' rounding, and angles held a little softer suffice; above the most, or as much of the fastest joint's, it is a frame.
     private const double LeastSpeed = 5e-8;
     private const double LeastNamedSpeed = 1e-4;
     private const double MostSpeed = 0.04;
@@ -132,7 +132,7 @@ internal sealed class LoopConsistencyProbe
         {
             Restart(mixture);
             if (IsSlow(Allowed(), out double first) && IsSlow(Allowed(), out double speed) && speed >= LeastKept * first
-                && Follow(Way) && AngularError() <= MostGrowth * Way * speed && IsSlow(Allowed(), out double last))
+                && speed <= MostSpeed * Fastest(Rates()) && Follow(Way) && AngularError() <= MostGrowth * Way * speed && IsSlow(Allowed(), out double last))
             {
                 bool isNamed = Math.Min(first, Math.Min(speed, last)) >= LeastNamedSpeed;
                 fit = isNamed && IsHeld(mixture) ? LoopConsistency.Inconsistent : isNamed ? fit : LoopConsistency.Rounded;
@@ -202,6 +202,17 @@ internal sealed class LoopConsistencyProbe
         Vector3d speed = LaneTransfer<ScalarLane>.ReadVector(_batch.Bodies, LaneBatch<ScalarLane>.Body(body, BodyLanes.V));
         Vector3d lever = LaneTransfer<ScalarLane>.ReadVector(_batch.Joints, LaneBatch<ScalarLane>.Joint(n, LaneBatch<ScalarLane>.WorldFrame(side)));
         return speed + Vector3d.Cross(Impulses<ScalarLane>.AngularVelocity(_batch, body), lever);
+    }
+
+    private static double Fastest(double[] rates)
+    {
+        double most = 0;
+        foreach (double rate in rates)
+        {
+            most = Math.Max(most, rate);
+        }
+
+        return most;
     }
 
     private static bool IsSlow(double speed, out double same)

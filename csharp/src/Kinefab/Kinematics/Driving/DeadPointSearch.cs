@@ -159,20 +159,9 @@ internal sealed class DeadPointSearch
 
     private SingularValues Values(MechanismState state)
     {
-        int n = _newton.Motion.Linear.Length;
-        var rows = new DenseRows(_newton.Firsts, n);
-        var columns = new List<int>(n);
-        for (int i = 0; i < n; i++)
-        {
-            columns.Add(i);
-        }
-
         _newton.ClearDriven();
         _newton.Motion.Start(state.Poses);
-        _newton.Equations.Sink = rows;
-        _newton.Assemble(state);
-        _newton.Equations.Sink = null;
-        return new SingularValues(rows.Matrix(columns));
+        return new SingularValues(_newton.Rows(state).Matrix(_newton.Motion.Linear.Length));
     }
 
     // At a dead centre the rest of the mechanism moves and the joints do not let the driven coordinate follow; the damping

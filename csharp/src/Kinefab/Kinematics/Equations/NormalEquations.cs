@@ -271,6 +271,34 @@ internal sealed class NormalEquations
         }
     }
 
+    /// <summary>Factors the damped matrix of some rows alone.</summary>
+    public void Factor(PackedRows rows, double damping)
+    {
+        Clear();
+        if (_isDual)
+        {
+            LeaveDual();
+        }
+
+        for (int r = 0; r < rows.Count; r++)
+        {
+            AddToMatrix(rows.Path(r), rows.Row(r), 0);
+        }
+
+        Solve(damping);
+    }
+
+    /// <summary>Replaces Step by the damped step for J^T C, with the matrix last factored.</summary>
+    public void SolveFor(double[] gradient)
+    {
+        for (int i = 0; i < _step.Length; i++)
+        {
+            _step[i] = -gradient[i];
+        }
+
+        BlockCholesky<ScalarLane>.Solve(_pattern, _matrix, _step);
+    }
+
     /// <summary>Spare freedoms and pivots of the last Solve that are less than a share of the largest entry: about as many freedoms are left over.</summary>
     public int LeftOver(double share)
     {

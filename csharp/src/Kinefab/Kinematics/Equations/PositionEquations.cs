@@ -38,8 +38,8 @@ internal sealed class PositionEquations
     /// <summary>Largest error of the joints and couplings since Clear, radians.</summary>
     public double WorstAngular { get; private set; }
 
-    /// <summary>Takes every row added from now on, packed, with its path and C; null: none.</summary>
-    public IRowSink? Sink { get; set; }
+    /// <summary>Takes every row added from now on; null: none.</summary>
+    public PackedRows? Sink { get; set; }
 
     /// <summary>Forgets all rows.</summary>
     public void Clear()
@@ -307,11 +307,4 @@ internal sealed class PositionEquations
 
         Sink?.Add(path, row, c);
     }
-}
-
-/// <summary>Takes rows over a tree's freedoms.</summary>
-internal interface IRowSink
-{
-    /// <summary>One row of J, packed along its path, and its C.</summary>
-    void Add(RowPath path, ReadOnlySpan<double> row, double c);
 }

@@ -62,69 +62,23 @@ internal sealed class LoopMobility
     public int AtGeneralPose { get; }
 
     /// <summary>
-    /// Notes for each closing joint, by the mechanism's index, how many rows repeat others: nothing of such a row is left after
-    /// the rows before it are taken out (Gram-Schmidt, twice).
+    /// Notes for each closing joint, by the mechanism's index, how many rows repeat others: nothing of such a row is left beside
+    /// the rows before it.
     /// </summary>
     public void CountRedundant(int[] redundant)
     {
-        var kept = new List<double[]>();
+        var elimination = new RowElimination(Rank + Here.Freedoms);
         int row = 0;
         foreach (int joint in Part.Linkage.Tree.Closures)
         {
+            int last = row + MotionSubspace.Rows(Part.Linkage.Joints[joint]);
             int repeated = 0;
-            int rows = MotionSubspace.Rows(Part.Linkage.Joints[joint]);
-            for (int i = 0; i < rows; i++)
+            for (; row < last; row++)
             {
-                double[] left = (double[])Here.Rows.Row(row++).Clone();
-                for (int pass = 0; pass < 2; pass++)
-                {
-                    foreach (double[] other in kept)
-                    {
-                        Subtract(left, other);
-                    }
-                }
-
-                double rest = Length(left);
-                if (rest <= IndependentRow)
-                {
-                    repeated++;
-                    continue;
-                }
-
-                for (int k = 0; k < left.Length; k++)
-                {
-                    left[k] /= rest;
-                }
-
-                kept.Add(left);
+                repeated += elimination.Take(Here.Rows.Columns(row), Here.Rows.Row(row), IndependentRow) > IndependentRow ? 0 : 1;
             }
 
             redundant[Part.Joints[joint]] = repeated;
-        }
-    }
-
-    private static double Length(double[] row)
-    {
-        double sum = 0;
-        foreach (double entry in row)
-        {
-            sum += entry * entry;
-        }
-
-        return Math.Sqrt(sum);
-    }
-
-    private static void Subtract(double[] row, double[] unit)
-    {
-        double dot = 0;
-        for (int i = 0; i < row.Length; i++)
-        {
-            dot += row[i] * unit[i];
-        }
-
-        for (int i = 0; i < row.Length; i++)
-        {
-            row[i] -= dot * unit[i];
         }
     }
 }

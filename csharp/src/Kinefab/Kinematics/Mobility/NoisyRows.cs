@@ -1,5 +1,5 @@
 using System;
-using Kinefab.Numerics;
+using System.Collections.Generic;
 
 namespace Kinefab.Kinematics;
 
@@ -25,31 +25,32 @@ internal static class NoisyRows
     private const int Chords = 8;
     private const int Trials = 2;
 
+    // Against the square of a kept singular value; what is left of a step falls by their ratio with each chord.
+    private const double Damping = 1e-12;
+
     /// <summary>Whether there is noise, and all velocities are motions that keep the rows as well as these repeat each other.</summary>
     /// <param name="newton">Of a linkage.</param>
     /// <param name="here">Its velocities at the state.</param>
     /// <param name="state">Closed as well as it can be.</param>
     public static bool Keep(NewtonSolver newton, VelocitySpace here, MechanismState state)
     {
-        double[] errors = Errors(newton, state, new double[newton.Motion.Linear.Length], out double[,] rows);
-        double worst = Largest(errors);
+        PackedRows rows = Rows(newton, state, new double[newton.Motion.Linear.Length]);
+        double worst = Largest(rows.Errors);
         if (here.Freedoms == 0 || (here.Gap >= NoisyGap && worst <= Noise))
         {
             return false;
         }
 
-        var values = new SingularValues((double[,])rows.Clone());
-        int rank = values.Values.Length - here.Freedoms;
-        double allowed = Allowed * (worst + Way * (rank >= 0 ? values.Values[rank] : 0));
+        double allowed = Allowed * (worst + Way * here.Dropped);
         for (int trial = 0; trial < Trials; trial++)
         {
             double[] step = here.Mixture(trial, Way);
             for (int i = 0; i < Chords; i++)
             {
-                TakeBack(step, Errors(newton, state, step, out _), rows, values, rank);
+                TakeBack(step, rows, Rows(newton, state, step).Errors, newton, here);
             }
 
-            if (!(Largest(Errors(newton, state, step, out _)) <= allowed))
+            if (!(Largest(Rows(newton, state, step).Errors) <= allowed))
             {
                 return false;
             }
@@ -58,58 +59,41 @@ internal static class NoisyRows
         return true;
     }
 
-    // The least step that the rows at the start ask for: by the kept singular values alone.
-    private static void TakeBack(double[] step, double[] errors, double[,] rows, SingularValues values, int rank)
+    // The least step that the rows at the start ask for, without what it has of the velocities: by the kept singular values alone.
+    private static void TakeBack(double[] step, PackedRows rows, IReadOnlyList<double> errors, NewtonSolver newton, VelocitySpace here)
     {
-        for (int k = 0; k < rank; k++)
+        newton.Factor(rows, Damping);
+        double[] back = newton.Answer(rows, errors);
+        foreach (double[] velocity in here.Basis)
         {
             double share = 0;
-            for (int r = 0; r < errors.Length; r++)
-            {
-                double along = 0;
-                for (int i = 0; i < step.Length; i++)
-                {
-                    along += rows[r, i] * values.Vector(i, k);
-                }
-
-                share += along * errors[r];
-            }
-
-            share /= values.Values[k] * values.Values[k];
             for (int i = 0; i < step.Length; i++)
             {
-                step[i] -= share * values.Vector(i, k);
+                share += velocity[i] * back[i];
             }
+
+            for (int i = 0; i < step.Length; i++)
+            {
+                back[i] -= share * velocity[i];
+            }
+        }
+
+        for (int i = 0; i < step.Length; i++)
+        {
+            step[i] += back[i];
         }
     }
 
-    private static double[] Errors(NewtonSolver newton, MechanismState state, double[] step, out double[,] rows)
+    private static PackedRows Rows(NewtonSolver newton, MechanismState state, double[] step)
     {
         MechanismState moved = state.Clone();
         newton.Motion.Start(moved.Poses);
         newton.Motion.Move(moved.Poses, step);
-        var dense = new DenseRows(newton.Firsts, step.Length);
         newton.ClearDriven();
-        newton.Equations.Sink = dense;
-        newton.Assemble(moved);
-        newton.Equations.Sink = null;
-        var columns = new int[step.Length];
-        for (int i = 0; i < columns.Length; i++)
-        {
-            columns[i] = i;
-        }
-
-        rows = dense.Matrix(columns);
-        var errors = new double[dense.Count];
-        for (int i = 0; i < errors.Length; i++)
-        {
-            errors[i] = dense.Errors[i];
-        }
-
-        return errors;
+        return newton.Rows(moved);
     }
 
-    private static double Largest(double[] values)
+    private static double Largest(IReadOnlyList<double> values)
     {
         double largest = 0;
         foreach (double value in values)

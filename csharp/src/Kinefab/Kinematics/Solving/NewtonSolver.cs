@@ -1,4 +1,5 @@
 using System;
+using System.Collections.Generic;
 using Kinefab.Numerics;
 
 namespace Kinefab.Kinematics;
@@ -98,6 +99,26 @@ internal sealed class NewtonSolver
     {
         _normal.Solve(damping);
         return _normal.Step;
+    }
+
+    /// <summary>Factors the matrix of rows that were collected before.</summary>
+    public void Factor(PackedRows rows, double damping) => _normal.Factor(rows, damping);
+
+    /// <summary>The damped step for other errors of the rows last factored, before any other is assembled.</summary>
+    public double[] Answer(PackedRows rows, IReadOnlyList<double> errors)
+    {
+        _normal.SolveFor(rows.TransposeTimes(errors, _normal.Step.Length));
+        return _normal.Step;
+    }
+
+    /// <summary>The rows of a state as it stands, see <see cref="Assemble"/>.</summary>
+    public PackedRows Rows(MechanismState state)
+    {
+        var rows = new PackedRows(Firsts);
+        Equations.Sink = rows;
+        Assemble(state);
+        Equations.Sink = null;
+        return rows;
     }
 
     /// <summary>Drives nothing.</summary>

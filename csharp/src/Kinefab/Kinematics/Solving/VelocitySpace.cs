@@ -4,7 +4,10 @@ using Kinefab.Numerics;
 
 namespace Kinefab.Kinematics;
 
-/// <summary>All velocities that loops and couplings allow at one pose: the null space of their rows, block by block.</summary>
+/// <summary>
+/// All velocities that loops and couplings allow at one pose: the null space of their rows, block by block. Of large blocks the rows that
+/// count beyond doubt are taken out first, one by one, and only what of the others is left is decomposed.
+/// </summary>
 internal sealed class VelocitySpace
 {
     // The rank stands in the widest gap between singular values, looked for in this window of their share of the largest.
@@ -12,6 +15,14 @@ internal sealed class VelocitySpace
     private const double LargestShare = 1e-3;
 
     private const double NoiseOverGap = 10;
+
+    // Up to so many freedoms a block is decomposed whole.
+    private const int Few = 64;
+
+    // Of a motion, beside the least singular value that counts: no better than rounding makes it.
+    private const double Exact = 1e-14;
+    private const int Refinements = 3;
+    private const double RefiningDamping = 1e-12;
 
     private readonly int[] _firsts;
     private readonly Linkage _linkage;
@@ -23,12 +34,9 @@ internal sealed class VelocitySpace
         _linkage = linkage;
         _firsts = newton.Firsts;
         int n = newton.Motion.Linear.Length;
-        Rows = new DenseRows(newton.Firsts, n);
         newton.ClearDriven();
         newton.Motion.Start(state.Poses);
-        newton.Equations.Sink = Rows;
-        newton.Assemble(state);
-        newton.Equations.Sink = null;
+        Rows = newton.Rows(state);
         Linear = (Vector3d[])newton.Motion.Linear.Clone();
         Angular = (Vector3d[])newton.Motion.Angular.Clone();
 
@@ -36,27 +44,18 @@ internal sealed class VelocitySpace
         double size = Math.Min(1, MechanismScale.LinkLength(linkage.Joints, state.Poses, linkage.Length) / linkage.Length);
         for (int b = 0; b < blocks.Columns.Count; b++)
         {
-            IReadOnlyList<int> columns = blocks.Columns[b];
-            var values = new SingularValues(Rows.Matrix(columns, b, blocks.BlockOf));
-            int rank = Rank(values.Values, size);
-            for (int k = rank; k < columns.Count; k++)
-            {
-                var vector = new double[n];
-                for (int i = 0; i < columns.Count; i++)
-                {
-                    vector[columns[i]] = values.Vector(i, k);
-                }
-
-                _basis.Add(vector);
-            }
+            AddMotions(newton, blocks.Columns[b], Rows.Of(b, blocks.BlockOf), n, size);
         }
     }
 
     /// <summary>The rows of the loop-closing joints and couplings, in their order.</summary>
-    public DenseRows Rows { get; }
+    public PackedRows Rows { get; }
 
     /// <summary>Least ratio across the gap of any block.</summary>
     public double Gap { get; private set; } = double.PositiveInfinity;
+
+    /// <summary>Greatest singular value that does not count.</summary>
+    public double Dropped { get; private set; }
 
     /// <summary>What may be in a velocity without being in the motion, as a share: more than rounding where repeated rows do not quite repeat each other.</summary>
     public double Noise => NoiseOverGap / Gap;
@@ -123,27 +122,197 @@ internal sealed class VelocitySpace
         }
     }
 
-    // size: what a row's largest singular value is where none is lost; it stands before them, so that the border may lie below them all.
-    private int Rank(double[] values, double size)
+    private void AddMotions(NewtonSolver newton, IReadOnlyList<int> columns, List<int> rows, int freedoms, double size)
     {
-        double largest = values.Length == 0 ? size : Math.Max(values[0], size);
-        int rank = values.Length;
+        var columnOf = new Dictionary<int, int>();
+        for (int i = 0; i < columns.Count; i++)
+        {
+            columnOf.Add(columns[i], i);
+        }
+
+        bool isLarge = columns.Count > Few;
+        double least = isLarge ? LargestShare * Math.Max(size, LongestOf(rows)) : double.PositiveInfinity;
+        var elimination = new RowElimination(columns.Count);
+        var kept = new List<double>();
+        var left = new List<(int[] Columns, double[] Row)>();
+        foreach (int r in rows)
+        {
+            int[] places = Array.ConvertAll(Rows.Columns(r), column => columnOf[column]);
+            double length = elimination.Take(places, Rows.Row(r), least);
+            if (length > least)
+            {
+                kept.Add(length);
+            }
+            else
+            {
+                left.Add((places, Rows.Row(r)));
+            }
+        }
+
+        List<double[]> motions = elimination.Basis();
+        var matrix = new double[left.Count, motions.Count];
+        for (int r = 0; r < left.Count; r++)
+        {
+            double[] along = elimination.Along(left[r].Columns, left[r].Row);
+            for (int i = 0; i < along.Length; i++)
+            {
+                matrix[r, i] = along[i];
+            }
+        }
+
+        kept.Sort((a, b) => b.CompareTo(a));
+        double rest = Length(matrix);
+        bool isRefined = isLarge && rest > Exact * Least(kept, size);
+        if (isRefined)
+        {
+            var values = new SingularValues(matrix);
+            int weak = Array.FindIndex(values.Values, value => value <= least);
+            weak = weak < 0 ? motions.Count : weak;
+            kept.AddRange(values.Values.AsSpan(0, weak).ToArray());
+            motions = Mixtures(motions, values, weak).ConvertAll(motion => Spread(motion, columns, freedoms));
+            matrix = Refine(newton, motions);
+            rest = Length(matrix);
+        }
+
+        if (!isLarge || kept.Count == 0 || rest > LeastShare * kept[0])
+        {
+            var values = new SingularValues(matrix);
+            kept.AddRange(values.Values);
+            int rank = Rank(kept, size);
+            rest = rank < kept.Count ? kept[rank] : 0;
+            motions = Mixtures(motions, values, rank - kept.Count + motions.Count);
+            kept.RemoveRange(rank, kept.Count - rank);
+        }
+
+        if (motions.Count > 0)
+        {
+            Gap = Math.Min(Gap, Least(kept, size) / Math.Max(rest, 1e-300));
+            Dropped = Math.Max(Dropped, rest);
+        }
+
+        _basis.AddRange(isRefined ? motions : motions.ConvertAll(motion => Spread(motion, columns, freedoms)));
+    }
+
+    // The rows taken out may tell less well than all of them together what is left: takes out of each motion the least step that makes up
+    // for what it misses the rows by. How fast each row is missed in each motion after that.
+    private double[,] Refine(NewtonSolver newton, List<double[]> motions)
+    {
+        var matrix = new double[Rows.Count, motions.Count];
+        newton.Factor(Rows, RefiningDamping);
+        for (int m = 0; m < motions.Count; m++)
+        {
+            double[] motion = motions[m];
+            for (int n = 0; n < Refinements; n++)
+            {
+                double[] back = newton.Answer(Rows, Rows.Times(motion));
+                for (int i = 0; i < motion.Length; i++)
+                {
+                    motion[i] += back[i];
+                }
+            }
+
+            for (int k = 0; k <= m; k++)
+            {
+                double share = 0;
+                for (int i = 0; i < motion.Length; i++)
+                {
+                    share += motion[i] * motions[k][i];
+                }
+
+                for (int i = 0; i < motion.Length; i++)
+                {
+                    motion[i] = k < m ? motion[i] - share * motions[k][i] : motion[i] / Math.Sqrt(share);
+                }
+            }
+
+            double[] rates = Rows.Times(motion);
+            for (int r = 0; r < rates.Length; r++)
+            {
+                matrix[r, m] = rates[r];
+            }
+        }
+
+        return matrix;
+    }
+
+    private static double Least(List<double> kept, double size) => kept.Count > 0 ? kept[kept.Count - 1] : size;
+
+    private static List<double[]> Mixtures(List<double[]> motions, SingularValues values, int first)
+    {
+        var mixtures = new List<double[]>();
+        for (int k = first; k < motions.Count; k++)
+        {
+            var mixture = new double[motions[0].Length];
+            for (int m = 0; m < motions.Count; m++)
+            {
+                double share = values.Vector(m, k);
+                for (int i = 0; i < mixture.Length; i++)
+                {
+                    mixture[i] += share * motions[m][i];
+                }
+            }
+
+            mixtures.Add(mixture);
+        }
+
+        return mixtures;
+    }
+
+    private double LongestOf(List<int> rows)
+    {
+        double longest = 0;
+        foreach (int r in rows)
+        {
+            double squares = 0;
+            foreach (double entry in Rows.Row(r))
+            {
+                squares += entry * entry;
+            }
+
+            longest = Math.Max(longest, Math.Sqrt(squares));
+        }
+
+        return longest;
+    }
+
+    private static double Length(double[,] matrix)
+    {
+        double squares = 0;
+        foreach (double entry in matrix)
+        {
+            squares += entry * entry;
+        }
+
+        return Math.Sqrt(squares);
+    }
+
+    private static double[] Spread(double[] motion, IReadOnlyList<int> columns, int freedoms)
+    {
+        var vector = new double[freedoms];
+        for (int i = 0; i < motion.Length; i++)
+        {
+            vector[columns[i]] = motion[i];
+        }
+
+        return vector;
+    }
+
+    // size: what a row's largest singular value is where none is lost; it stands before them, so that the border may lie below them all.
+    private static int Rank(List<double> values, double size)
+    {
+        double largest = values.Count == 0 ? size : Math.Max(values[0], size);
+        int rank = values.Count;
         double widest = 0;
-        for (int r = 0; r <= values.Length; r++)
+        for (int r = 0; r <= values.Count; r++)
         {
             double above = (r > 0 ? values[r - 1] : size) / largest;
-            double below = (r < values.Length ? values[r] : 0) / largest;
+            double below = (r < values.Count ? values[r] : 0) / largest;
             double width = above / Math.Max(below, LeastShare);
             if (above > LeastShare && below < LargestShare && width > widest)
             {
                 widest = width;
                 rank = r;
             }
-        }
-
-        if (rank < values.Length)
-        {
-            Gap = Math.Min(Gap, (rank > 0 ? values[rank - 1] : size) / Math.Max(values[rank], 1e-300));
         }
 
         return rank;

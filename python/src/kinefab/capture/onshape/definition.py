@@ -37,6 +37,8 @@ class Definition:
         subs = {_key(sub): sub for sub in self.values.get("subAssemblies", [])}
         occurrences = {tuple(o["path"]): o for o in top.get("occurrences", [])}
         self.owners[()] = top
+        if (chosen := top.get("configuration", "default")) != "default":
+            self.draft.configuration = chosen
         self._level(top, (), self.root, subs, occurrences)
         self.parts.read()
         for component in self.draft.components:

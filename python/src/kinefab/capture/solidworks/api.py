@@ -31,6 +31,7 @@ class Model(Protocol):
     def GetPathName(self) -> str: ...  # text | - | IModelDoc2.GetPathName Method
     def GetSaveFlag(self) -> bool: ...  # flag | - | IModelDoc2.GetSaveFlag Method
     def FirstFeature(self) -> Feature | None: ...  # - | - | IModelDoc2.FirstFeature Method
+    def GetConfigurationCount(self) -> int: ...  # count | - | IModelDoc2.GetConfigurationCount Method
     def GetConfigurationByName(self, Name: str) -> Configuration | None: ...  # - | - | IModelDoc2.GetConfigurationByName Method
 
 
@@ -54,6 +55,8 @@ class ConfigurationManager(Protocol):
 
 
 class Configuration(Protocol):
+    Name: str  # text | - | IConfiguration.Name Property
+
     def GetRootComponent3(self, Resolve: bool) -> Component: ...  # - | - | IConfiguration.GetRootComponent3 Method
 
 

@@ -65,7 +65,10 @@ def _in_bulk(application: Application) -> Generator[None, None, None]:
 
 def _assembly(model: Model, draft: Draft, root: str) -> None:
     found = Components(draft, root)
-    top = model.ConfigurationManager.ActiveConfiguration.GetRootComponent3(True)
+    active = model.ConfigurationManager.ActiveConfiguration
+    with suppress(MemberFailed):  # what an earlier record was not asked
+        draft.configuration = active.Name if model.GetConfigurationCount() > 1 else ""
+    top = active.GetRootComponent3(True)
     found.read(top, root)
     if found.unloaded:
         first, count = found.unloaded[0], len(found.unloaded)

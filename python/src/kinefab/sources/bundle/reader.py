@@ -10,6 +10,7 @@ from __future__ import annotations
 import hashlib
 import re
 from collections.abc import Mapping
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -29,7 +30,7 @@ from .joints import read_joints
 
 BUNDLE = frozenset("meta materials components joints couplings constraints dof".split())
 META = frozenset(
-    "format version generator units handed up forward poseState mesh sourceFile timestamp".split()
+    "format version generator units handed up forward poseState mesh sourceFile configuration timestamp".split()
 )
 UNITS = frozenset("length angle mass".split())
 MESH = frozenset("files units layout coordinates key".split())
@@ -92,6 +93,8 @@ def draft_from_values(
         report.raise_for_errors()  # lines are lost already, or the names below mean something else there
     misread, before = bool(report.of(Severity.ERROR)), len(report.diagnostics)
     scene = Scene(source=Source(path.name, up, frame.length, hashlib.sha256(data).hexdigest()))
+    if is_object(meta := bundle.values.get("meta")) and isinstance(chosen := meta.get("configuration"), str):
+        scene.source = replace(scene.source, configuration=chosen)
     materials = _materials(bundle, scene)
     components = read_components(bundle, frame, meshes, materials, log)
     if not components.nodes:
@@ -127,7 +130,7 @@ def _meta(bundle: Record, path: Path) -> tuple[SourceFrame, MeshSource, str]:
         )
     elif match and int(match[1]) != MAJOR:
         meta.fault("BUNDLE_VERSION", "version", found=version, known=f"{MAJOR}.x")
-    for key in ("sourceFile", "timestamp"):
+    for key in ("sourceFile", "timestamp", "configuration"):
         meta.text(key, "")
     if generator := meta.record("generator", GENERATOR):
         for key in sorted(GENERATOR):

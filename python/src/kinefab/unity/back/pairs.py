@@ -1,11 +1,12 @@
-"""Which bodies of a written scene pass through each other."""
+"""Which bodies of a written scene pass through each other, and which do not in spite of their groups."""
 
 from __future__ import annotations
 
 from collections.abc import Mapping
 from typing import Any
 
-from ...model import Apart
+from ...model import Apart, Colliding
+from ..grouped import colliding_in_spite_of_groups
 from ..scene import UnityScene
 from ..scene.joints.configurable_joint import APART
 
@@ -36,5 +37,14 @@ def pairs_apart(written: UnityScene, node_of: Mapping[int, int]) -> list[Apart]:
     return [
         Apart(node_of[a], node_of[b], reason or reasons.get(frozenset((a, b)), UNTOLD), stated=False)
         for a, b, reason in listed
+        if a in node_of and b in node_of
+    ]
+
+
+def pairs_colliding(written: UnityScene, node_of: Mapping[int, int]) -> list[Colliding]:
+    """The pairs that are to collide whatever their groups: those that the groups would part and the file does not."""
+    return [
+        Colliding(node_of[a], node_of[b], "contact pair")
+        for a, b in colliding_in_spite_of_groups(written)
         if a in node_of and b in node_of
     ]

@@ -42,7 +42,7 @@ from ..mapping import GROUND_ID
 from ..scene import ArticulationBody, Collider, GameObject, Material, Mesh, MeshFilter, MeshRenderer, Rigidbody, UnityScene
 from ..scene.joints.configurable_joint import APART
 from .extras import Way, extras_in
-from .pairs import pairs_apart
+from .pairs import pairs_apart, pairs_colliding
 from .restored import Restored, restored
 from .scene_file import read_buffers, read_scene_file, unsound_as_finding
 from .shapes import shape_of
@@ -166,6 +166,7 @@ class _Nodes:
             ),
             extras=extras,
             apart=pairs_apart(written, self.node_of),
+            colliding=pairs_colliding(written, self.node_of),
             written=written,
         )
 

@@ -47,6 +47,15 @@ internal sealed class LoopConsistencyTests
         Assert.That(LoopConsistencyProbe.Find(new RandomLoop(seed).System), Is.Empty);
     }
 
+    // Wide enough to bend out of its plane with little turn between neighbours; its hinges do not turn then.
+    [TestCase(8)]
+    [TestCase(10)]
+    public void Create_ExactGridOfCells_NamesNothing(int cells)
+    {
+        ValidScene scene = SmallScene.Validate(HubScenes.Grid(cells));
+        Assert.That(World.Create(scene, SolverKind.Exact).Findings.Diagnostics, Is.Empty);
+    }
+
     [Test]
     public void Find_RedundantAndSingularLoops_NamesNothing()
     {

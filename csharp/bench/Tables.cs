@@ -69,6 +69,8 @@ internal static class Tables
 
     internal static string Package() => Written(PackageBenchmark.Run);
 
+    internal static string Threads() => Written(ThreadBenchmark.Run);
+
     internal static string Peers() => Written(PeerBenchmark.Run);
 
     private static string Written(Action run)

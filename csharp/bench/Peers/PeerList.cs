@@ -35,6 +35,21 @@ internal static class PeerList
             yield return ("ODE, WorldStep", scene => new NativePeer(ode, scene, 1, 0));
     }
 
+    /// <summary>Engines that the tables have and that are not there.</summary>
+    public static IEnumerable<string> Missing()
+    {
+#if !JITTER2
+        yield return "Jitter2";
+#endif
+#if !BEPU
+        yield return "Bepu";
+#endif
+        if (Library("box3d") is null)
+            yield return "Box3D";
+        if (Library("ode") is null)
+            yield return "ODE";
+    }
+
     private static IntPtr? Library(string engine)
     {
         string? folder = Environment.GetEnvironmentVariable("KINEFAB_PEERS");

@@ -1,4 +1,5 @@
 using System;
+using System.Collections.Generic;
 using Kinefab.Dynamics;
 using Kinefab.Joints;
 using Kinefab.Numerics;
@@ -8,7 +9,28 @@ namespace Kinefab.Tests.Dynamics;
 /// <summary>Mechanisms without mercy: masses from 1 g to 1 t in one chain, inertias down to 1e-6, any limits and drives, anchors on each other.</summary>
 internal static class RandomMechanism
 {
-    public static MultibodySystem Make(int seed)
+    /// <summary>The mechanisms of some seeds, in one world.</summary>
+    public static MultibodySystem Make(params int[] seeds)
+    {
+        var bodies = new List<BodyDefinition>();
+        var joints = new List<JointModel>();
+        foreach (int seed in seeds)
+        {
+            (BodyDefinition[] ownBodies, JointModel[] ownJoints) = Parts(seed);
+            foreach (JointModel joint in ownJoints)
+            {
+                joint.Body0 += joint.Body0 == JointModel.World ? 0 : bodies.Count;
+                joint.Body1 += joint.Body1 == JointModel.World ? 0 : bodies.Count;
+            }
+
+            bodies.AddRange(ownBodies);
+            joints.AddRange(ownJoints);
+        }
+
+        return new MultibodySystem(new Bodies(bodies.ToArray()), joints.ToArray(), []);
+    }
+
+    private static (BodyDefinition[] Bodies, JointModel[] Joints) Parts(int seed)
     {
         var random = new Random(seed);
         var bodies = new BodyDefinition[random.Next(1, 8)];
@@ -46,7 +68,7 @@ internal static class RandomMechanism
             joints[i].Preprocessing = random.Next(4) != 0;
         }
 
-        return new MultibodySystem(new Bodies(bodies), joints, []);
+        return (bodies, joints);
     }
 
     /// <summary>1e-4 to 0.1 s.</summary>

@@ -19,6 +19,9 @@ internal sealed class MultibodySystem
     /// <summary>m/s^2.</summary>
     public Vector3d Gravity = new(0, -9.81, 0);
 
+    /// <summary>How many threads a step may use.</summary>
+    public int Threads = 1;
+
     /// <summary>Writes the last step's reactions; set by a solver that leaves this until they are read.</summary>
     public Action<JointReaction[]>? UnreadReactions;
 

@@ -20,6 +20,9 @@ internal sealed class LinkRows
     private readonly int[] _joints;
     private readonly int[] _couplings;
     private readonly SweepRows _rows;
+
+    // The biased or the unbiased ones of the rows.
+    private double[] _constants = System.Array.Empty<double>();
     private readonly Row[] _made;
 
     // Those of a row stand together.
@@ -123,11 +126,11 @@ internal sealed class LinkRows
 
         foreach (int c in _couplings)
             PrepareCoupling(_mechanism.Couplings[c], dt, inverseDt);
-        _rows.Constants = _rows.BiasedConstants;
+        _constants = _rows.BiasedConstants;
     }
 
     /// <summary>From the velocity iterations on the error counts no more.</summary>
-    public void RemoveBias() => _rows.Constants = _rows.UnbiasedConstants;
+    public void RemoveBias() => _constants = _rows.UnbiasedConstants;
 
     /// <summary>All but those to the world once.</summary>
     public void Sweep(BodyDelta[] deltas, SqrtInertia[] sqrtInertia)
@@ -336,7 +339,7 @@ internal sealed class LinkRows
     private double Solve(int i, double speed)
     {
         ref RowBounds bounds = ref _rows.Bounds[i];
-        double impulse = bounds.ImpulseMultiplier * _rows.Impulses[i] + _rows.VelocityMultipliers[i] * speed + _rows.Constants[i];
+        double impulse = bounds.ImpulseMultiplier * _rows.Impulses[i] + _rows.VelocityMultipliers[i] * speed + _constants[i];
         impulse = Math.Min(bounds.Maximum, Math.Max(bounds.Minimum, impulse));
         double given = impulse - _rows.Impulses[i];
         _rows.Impulses[i] = impulse;

@@ -11,7 +11,7 @@ namespace Kinefab.Dynamics.Pgs;
 /// are PhysX's own. Of both iterations there are as many as the moving body that asks for most, as PhysX has it among up to 128 bodies.
 /// Source: DySolverControl.cpp, DyConstraintSetup.cpp, DySolverConstraints.cpp (solve1D), DyBodyCoreIntegrator.h.
 /// </summary>
-internal sealed class PgsSolver : ISolver
+internal sealed class PgsSolver : ISolver, IStepParts
 {
     private readonly MultibodySystem _mechanism;
     private readonly Bodies _bodies;
@@ -28,20 +28,17 @@ internal sealed class PgsSolver : ISolver
     private readonly Pose[] _startPoses;
     private readonly Vector3d[] _startLinear;
     private readonly Vector3d[] _startAngular;
-    private readonly BodyDelta[] _deltas;
-    private readonly BodyDelta[] _motions;
+    private BodyDelta[] _deltas = Array.Empty<BodyDelta>();
+    private BodyDelta[] _motions = Array.Empty<BodyDelta>();
     private readonly Vector3d[] _rootInertia;
     private readonly SqrtInertia[] _sqrtInertia;
 
     private readonly JointBlock[] _blocks;
     private readonly SweepRows _rows;
     private readonly ReactionSums _reactions;
-
-    // One joint's rows on their way into the sweeps.
-    private readonly ConstraintRow[] _given = new ConstraintRow[JointModel.MaxRows];
-    private readonly int[] _sorted = new int[JointModel.MaxRows];
-    private readonly double[] _responses = new double[JointModel.MaxRows];
-    private readonly double[] _least = new double[JointModel.MaxRows];
+    private Part[] _parts = Array.Empty<Part>();
+    private int _positionIterations;
+    private int _velocityIterations;
 
     public PgsSolver(MultibodySystem mechanism)
         : this(mechanism, ArticulatedBodies.None(mechanism))
@@ -56,7 +53,8 @@ internal sealed class PgsSolver : ISolver
         _articulated = articulated;
         _linkRows = new LinkRows(mechanism, articulated);
         _writeReactions = WriteReactions;
-        _order = new SolveOrder(mechanism, _linkRows.Takes);
+        bool isOnePart = mechanism.Couplings.Length > 0 || articulated.Solvers.Length > 0;
+        _order = new SolveOrder(mechanism, _linkRows.Takes, _articulated.IsLink, isOnePart);
         _projection = new ProjectionOrder(mechanism);
         _couplings = new CouplingRows(mechanism, _linkRows.TakesCoupling);
         int slots = _bodies.Count + 1;
@@ -64,15 +62,12 @@ internal sealed class PgsSolver : ISolver
         _startPoses[_bodies.Count] = Pose.Identity;
         _startLinear = new Vector3d[slots];
         _startAngular = new Vector3d[slots];
-
-        // And one more, which takes the changes of what cannot move.
-        _deltas = new BodyDelta[slots + 1];
-        _motions = new BodyDelta[slots + 1];
         _rootInertia = Array.ConvertAll(_bodies.InverseInertias, SqrtInertia.Root);
         _sqrtInertia = new SqrtInertia[slots];
         _blocks = new JointBlock[mechanism.Joints.Length];
         _rows = new SweepRows(mechanism.Joints.Length);
         _reactions = new ReactionSums(mechanism, _blocks, _rows, _startPoses);
+        MakeParts();
     }
 
     /// <inheritdoc/>
@@ -86,49 +81,17 @@ internal sealed class PgsSolver : ISolver
         }
 
         _dt = dt;
-        int positionIterations = 0;
-        int velocityIterations = 0;
-        for (int i = 0; i < _bodies.Count; i++)
+        Begin();
+        if (_order.IsOnePart)
         {
-            if (!_articulated.IsLink(i))
-                BodyMotion.PredictVelocity(_bodies, i, _mechanism.Gravity, dt);
-            _sqrtInertia[i] = SqrtInertia.At(_bodies.Poses[i].Rotation, _rootInertia[i]);
-            _startPoses[i] = _bodies.Poses[i];
-            _startLinear[i] = _bodies.LinearVelocities[i];
-            _startAngular[i] = _bodies.AngularVelocities[i];
-            if (!_bodies.IsKinematic[i] || _articulated.IsLink(i))
-            {
-                positionIterations = Math.Max(positionIterations, _bodies.PositionIterations[i]);
-                velocityIterations = Math.Max(velocityIterations, _bodies.VelocityIterations[i]);
-            }
+            SolveAsOne(dt);
+        }
+        else
+        {
+            StepThreads.ForEach(this, _parts.Length, _mechanism.Threads);
         }
 
-        int blocks = Prepare(dt);
-        _couplings.Prepare(_sqrtInertia, dt);
-        _articulated.Begin(dt, _linkRows.IsNeeded);
-        _linkRows.Prepare(dt);
-        Array.Clear(_deltas, 0, _deltas.Length);
-        _rows.Constants = _rows.BiasedConstants;
-        for (int i = 0; i < positionIterations; i++)
-        {
-            Sweep(blocks);
-            _couplings.Sweep(_deltas);
-            SweepArticulations(isVelocityIteration: false);
-        }
-
-        foreach (ArticulationSolver articulation in _articulated.Solvers)
-            articulation.EndPositionIterations();
-        _linkRows.RemoveBias();
-        Array.Copy(_deltas, _motions, _deltas.Length);
-        _rows.Constants = _rows.UnbiasedConstants;
-        _couplings.RemoveBias();
-        for (int i = 0; i < velocityIterations; i++)
-        {
-            Sweep(blocks);
-            _couplings.Sweep(_deltas);
-            SweepArticulations(isVelocityIteration: true);
-        }
-
+        int blocks = _order.Joints.Length;
         bool broken = _reactions.Break(blocks, dt) | _linkRows.Break(dt);
         if (_articulated.Solvers.Length > 0)
         {
@@ -138,8 +101,14 @@ internal sealed class PgsSolver : ISolver
 
         for (int i = 0; i < _bodies.Count; i++)
         {
-            if (!_articulated.IsLink(i))
-                Move(i, dt);
+            if (_bodies.IsKinematic[i] && !_articulated.IsLink(i))
+                _bodies.Poses[i] = _bodies.KinematicTargets[i];
+        }
+
+        foreach (Part part in _parts)
+        {
+            _mechanism.Stops += part.Stops;
+            part.Stops = 0;
         }
 
         _articulated.Finish();
@@ -147,8 +116,7 @@ internal sealed class PgsSolver : ISolver
         _projection.Apply();
         if (broken)
         {
-            _order.Refresh();
-            _projection.Refresh();
+            Refresh();
         }
 
         _couplings.Finish(dt);
@@ -162,8 +130,124 @@ internal sealed class PgsSolver : ISolver
         if (!tape.IsPlaying)
             return;
         _mechanism.HasChangedBodies = true;
+        Refresh();
+    }
+
+    /// <inheritdoc/>
+    void IStepParts.Do(int part)
+    {
+        Part own = _parts[part];
+        foreach (int body in own.Bodies)
+            Predict(body);
+        own.Preparation.Prepare(_order.Joints, own.First, own.End, _dt);
+        foreach (int body in own.Bodies)
+            _deltas[body] = default;
+        for (int i = 0; i < _positionIterations; i++)
+            Sweep(own, _rows.BiasedConstants);
+        foreach (int body in own.Bodies)
+            _motions[body] = _deltas[body];
+        for (int i = 0; i < _velocityIterations; i++)
+            Sweep(own, _rows.UnbiasedConstants);
+        foreach (int body in own.Bodies)
+            Move(own, body, _dt);
+    }
+
+    // With what bodies and joints do not do by themselves: couplings after every sweep, articulations after these.
+    private void SolveAsOne(double dt)
+    {
+        Part all = _parts[0];
+        foreach (int body in all.Bodies)
+            Predict(body);
+        all.Preparation.Prepare(_order.Joints, all.First, all.End, dt);
+        _couplings.Prepare(_sqrtInertia, dt);
+        _articulated.Begin(dt, _linkRows.IsNeeded);
+        _linkRows.Prepare(dt);
+        Array.Clear(_deltas, 0, _deltas.Length);
+        for (int i = 0; i < _positionIterations; i++)
+        {
+            Sweep(all, _rows.BiasedConstants);
+            _couplings.Sweep(_deltas);
+            SweepArticulations(isVelocityIteration: false);
+        }
+
+        foreach (ArticulationSolver articulation in _articulated.Solvers)
+            articulation.EndPositionIterations();
+        _linkRows.RemoveBias();
+        Array.Copy(_deltas, _motions, _deltas.Length);
+        _couplings.RemoveBias();
+        for (int i = 0; i < _velocityIterations; i++)
+        {
+            Sweep(all, _rows.UnbiasedConstants);
+            _couplings.Sweep(_deltas);
+            SweepArticulations(isVelocityIteration: true);
+        }
+
+        foreach (int body in all.Bodies)
+            Move(all, body, dt);
+    }
+
+    // What parts share: how often all are swept, and the bodies that move as they are told.
+    private void Begin()
+    {
+        _positionIterations = 0;
+        _velocityIterations = 0;
+        for (int i = 0; i < _bodies.Count; i++)
+        {
+            bool isLink = _articulated.IsLink(i);
+            if (_bodies.IsKinematic[i] && !isLink)
+            {
+                Predict(i);
+                continue;
+            }
+
+            _positionIterations = Math.Max(_positionIterations, _bodies.PositionIterations[i]);
+            _velocityIterations = Math.Max(_velocityIterations, _bodies.VelocityIterations[i]);
+            if (isLink)
+                Note(i);
+        }
+    }
+
+    private void Predict(int i)
+    {
+        BodyMotion.PredictVelocity(_bodies, i, _mechanism.Gravity, _dt);
+        Note(i);
+    }
+
+    private void Note(int i)
+    {
+        _sqrtInertia[i] = SqrtInertia.At(_bodies.Poses[i].Rotation, _rootInertia[i]);
+        _startPoses[i] = _bodies.Poses[i];
+        _startLinear[i] = _bodies.LinearVelocities[i];
+        _startAngular[i] = _bodies.AngularVelocities[i];
+    }
+
+    // The parts after joints broke.
+    private void Refresh()
+    {
         _order.Refresh();
         _projection.Refresh();
+        MakeParts();
+    }
+
+    private void MakeParts()
+    {
+        _parts = new Part[_order.PartCount];
+
+        // Behind those of bodies and world each part has a slot that takes the changes of what cannot move, and one between it and the next:
+        // two threads do not write to one line of memory.
+        int unread = _bodies.Count + 1;
+        _deltas = new BodyDelta[unread + 2 * _parts.Length];
+        _motions = new BodyDelta[_deltas.Length];
+        for (int p = 0; p < _parts.Length; p++)
+        {
+            _parts[p] = new Part
+            {
+                First = _order.FirstJoint(p),
+                End = _order.FirstJoint(p + 1),
+                Bodies = _order.Bodies(p),
+                Preparation = new JointPreparation(_mechanism, _blocks, _rows, _startPoses, _startLinear, _startAngular, _sqrtInertia, unread + 2 * p),
+            };
+        }
     }
 
     private void SweepArticulations(bool isVelocityIteration)
@@ -179,144 +263,30 @@ internal sealed class PgsSolver : ISolver
         _linkRows.Write(reactions, _dt);
     }
 
-    private int Prepare(double dt)
+    private void Sweep(Part part, double[] constants)
     {
-        ReadOnlySpan<int> joints = _order.Joints;
-        double inverseDt = 1 / dt;
-        int next = 0;
-        int factors = 0;
-        for (int b = 0; b < joints.Length; b++)
-        {
-            JointModel joint = _mechanism.Joints[joints[b]];
-            ref JointBlock block = ref _blocks[b];
-            SetBodies(ref block, joints[b], joint);
-            int count = joint.Prepare(_startPoses[block.Body0], _startPoses[block.Body1], _given);
-            Span<int> sorted = _sorted.AsSpan(0, count);
-            Preprocessing.Sort(_given.AsSpan(0, count), sorted);
-            SetRange(ref block, next, sorted, joint.Preprocessing);
-            Load(block, sorted);
-            block.Factors = factors;
-            factors += Preprocessing.Orthogonalize(_rows, block, _responses.AsSpan(block.Equalities - block.Start), _least);
-            SetConstants(block, sorted, joint, dt, inverseDt);
-            next = block.End;
-        }
-
-        return joints.Length;
-    }
-
-    private void SetBodies(ref JointBlock block, int index, JointModel joint)
-    {
-        int world = _bodies.Count;
-        double mass0 = joint.Body0 < 0 ? 0 : _bodies.InverseMasses[joint.Body0];
-        double mass1 = joint.Body1 < 0 ? 0 : _bodies.InverseMasses[joint.Body1];
-        block.Joint = index;
-        block.Body0 = joint.Body0 < 0 ? world : joint.Body0;
-        block.Body1 = joint.Body1 < 0 ? world : joint.Body1;
-        block.Moved0 = mass0 > 0 ? joint.Body0 : world + 1;
-        block.Moved1 = mass1 > 0 ? joint.Body1 : world + 1;
-        block.Mass = new PairMass(
-            mass0 * joint.InverseMassScale0, mass1 * joint.InverseMassScale1, joint.InverseInertiaScale0, joint.InverseInertiaScale1);
-    }
-
-    private void SetRange(ref JointBlock block, int start, ReadOnlySpan<int> sorted, bool isOrthogonal)
-    {
-        block.Start = start;
-        block.End = start + sorted.Length;
-        block.Inequalities = block.End;
-        block.Equalities = block.End;
-        if (isOrthogonal)
-        {
-            int i = sorted.Length;
-            while (i > 0 && _given[sorted[i - 1]].Hint == SolveHint.Inequality)
-            {
-                i--;
-            }
-
-            block.Inequalities = start + i;
-            while (i > 0 && _given[sorted[i - 1]].Hint == SolveHint.Equality)
-            {
-                i--;
-            }
-
-            block.Equalities = start + i;
-        }
-    }
-
-    // Cdot is reckoned with one linear part, as everything after it.
-    private void Load(in JointBlock block, ReadOnlySpan<int> sorted)
-    {
-        int body0 = block.Body0;
-        int body1 = block.Body1;
-        ref SqrtInertia inertia0 = ref _sqrtInertia[body0];
-        ref SqrtInertia inertia1 = ref _sqrtInertia[body1];
-        Vector3d relative = _startLinear[body0] - _startLinear[body1];
-        Vector3d angular0 = _startAngular[body0];
-        Vector3d angular1 = _startAngular[body1];
-        for (int i = 0; i < sorted.Length; i++)
-        {
-            ref ConstraintRow row = ref _given[sorted[i]];
-            int index = block.Start + i;
-            double velocity = Vector3d.Dot(row.Linear0, relative) + Vector3d.Dot(row.Angular0, angular0) - Vector3d.Dot(row.Angular1, angular1);
-            var vectors = new RowVectors
-            {
-                Linear = new Double4(row.Linear0, row.GeometricError),
-                Sqrt0 = inertia0.Times(row.Angular0).With(row.VelocityTarget),
-                Sqrt1 = inertia1.Times(row.Angular1).With(velocity),
-            };
-            _rows.Vectors[index] = vectors;
-            _rows.Angular0[index] = row.Angular0;
-            _rows.Counts[index] = row.Has(RowFlags.OutputForce);
-            _responses[i] = block.Mass.Product(vectors, vectors);
-        }
-    }
-
-    private void SetConstants(in JointBlock block, ReadOnlySpan<int> sorted, JointModel joint, double dt, double inverseDt)
-    {
-        for (int i = 0; i < sorted.Length; i++)
-        {
-            int index = block.Start + i;
-            if (index >= block.Equalities && index < block.Inequalities)
-            {
-                PgsConstants.SetEquality(_rows, index, _responses[i], inverseDt);
-                continue;
-            }
-
-            ref ConstraintRow row = ref _given[sorted[i]];
-            double driveScale = row.Has(RowFlags.HasDriveLimit) && joint.DriveLimitsAreForces ? Math.Min(dt, 1) : 1;
-            PgsConstants.Set(_rows, index, _responses[i], row, driveScale, dt, inverseDt);
-        }
-    }
-
-    private void Sweep(int blocks)
-    {
-        for (int b = 0; b < blocks; b++)
+        for (int b = part.First; b < part.End; b++)
         {
             ref JointBlock block = ref _blocks[b];
             if (block.Equalities > block.Start)
             {
-                _rows.SolveInTurn(block.Start, block.Equalities, block, _deltas);
+                _rows.SolveInTurn(block.Start, block.Equalities, block, _deltas, constants);
             }
 
             if (block.Inequalities > block.Equalities)
             {
-                _rows.SolveTogether(block, _deltas);
+                _rows.SolveTogether(block, _deltas, constants);
             }
 
             if (block.End > block.Inequalities)
             {
-                _rows.SolveInTurn(block.Inequalities, block.End, block, _deltas);
+                _rows.SolveInTurn(block.Inequalities, block.End, block, _deltas, constants);
             }
         }
     }
 
-    private void Move(int i, double dt)
+    private void Move(Part part, int i, double dt)
     {
-        if (_bodies.IsKinematic[i])
-        {
-            _bodies.Poses[i] = _bodies.KinematicTargets[i];
-            return;
-        }
-
         Vector3d dv = _deltas[i].Linear.Vector;
         Vector3d du = _deltas[i].Angular.Vector;
         Vector3d motionV = _motions[i].Linear.Vector;
@@ -337,7 +307,7 @@ internal sealed class PgsSolver : ISolver
         w += _sqrtInertia[i].Times(du).Vector;
         if (!BodyMotion.InRange(pose, v, w))
         {
-            _mechanism.Stops++;
+            part.Stops++;
             v = Vector3d.Zero;
             w = Vector3d.Zero;
             pose = _bodies.Poses[i];
@@ -346,5 +316,18 @@ internal sealed class PgsSolver : ISolver
         _bodies.Poses[i] = pose;
         _bodies.LinearVelocities[i] = v;
         _bodies.AngularVelocities[i] = w;
+    }
+
+    /// <summary>Joints and moving bodies of islands that are solved one after the other, by one thread.</summary>
+    private sealed class Part
+    {
+        /// <summary>In the order of the sweeps, and after the last.</summary>
+        public int First;
+        public int End;
+        public int[] Bodies = Array.Empty<int>();
+        public JointPreparation Preparation = null!;
+
+        /// <summary>Bodies that left the range of numbers in the step.</summary>
+        public int Stops;
     }
 }

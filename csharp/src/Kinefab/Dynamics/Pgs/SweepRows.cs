@@ -12,7 +12,7 @@ namespace Kinefab.Dynamics.Pgs;
 internal sealed class SweepRows
 {
     /// <summary>No joint needs more factors than this: at most six equalities, each taken from all rows after it.</summary>
-    private const int MaxFactors = 6 * JointModel.MaxRows;
+    public const int MaxFactors = 6 * JointModel.MaxRows;
 
     public readonly RowVectors[] Vectors;
 
@@ -32,8 +32,6 @@ internal sealed class SweepRows
     /// <summary>The same without bias, for the velocity iterations.</summary>
     public readonly double[] UnbiasedConstants;
 
-    /// <summary>Those of the two that the sweeps are to take.</summary>
-    public double[] Constants;
     public readonly double[] VelocityMultipliers;
 
     /// <summary>Accumulated.</summary>
@@ -49,13 +47,12 @@ internal sealed class SweepRows
         Bounds = new RowBounds[capacity];
         BiasedConstants = new double[capacity];
         UnbiasedConstants = new double[capacity];
-        Constants = BiasedConstants;
         VelocityMultipliers = new double[capacity];
         Impulses = new double[capacity];
     }
 
     /// <summary>Any rows, one after the other: lambda = clamp(i lambda + m Cdot + constant).</summary>
-    public void SolveInTurn(int start, int end, in JointBlock block, BodyDelta[] bodies)
+    public void SolveInTurn(int start, int end, in JointBlock block, BodyDelta[] bodies, double[] constants)
     {
         BodyDelta body0 = bodies[block.Body0];
         BodyDelta body1 = bodies[block.Body1];
@@ -64,7 +61,7 @@ internal sealed class SweepRows
             ref RowVectors row = ref Vectors[i];
             ref RowBounds bounds = ref Bounds[i];
             double velocity = Products(row, body0.Linear - body1.Linear, body0.Angular, body1.Angular).Sum3;
-            double impulse = bounds.ImpulseMultiplier * Impulses[i] + VelocityMultipliers[i] * velocity + Constants[i];
+            double impulse = bounds.ImpulseMultiplier * Impulses[i] + VelocityMultipliers[i] * velocity + constants[i];
             impulse = Math.Min(bounds.Maximum, Math.Max(bounds.Minimum, impulse));
             double delta = impulse - Impulses[i];
             Impulses[i] = impulse;
@@ -77,7 +74,7 @@ internal sealed class SweepRows
 
     /// <summary>Equalities that are mass-orthogonal: none changes another's Cdot, so all see the velocities from before.</summary>
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
-    public void SolveTogether(in JointBlock block, BodyDelta[] bodies)
+    public void SolveTogether(in JointBlock block, BodyDelta[] bodies, double[] constants)
     {
         BodyDelta body0 = bodies[block.Body0];
         BodyDelta body1 = bodies[block.Body1];
@@ -97,7 +94,7 @@ internal sealed class SweepRows
                 Products(rows[1], relative, before0, before1),
                 Products(rows[2], relative, before0, before1),
                 Products(rows[3], relative, before0, before1));
-            Double4 deltas = Double4.Load(VelocityMultipliers, i) * velocities + Double4.Load(Constants, i);
+            Double4 deltas = Double4.Load(VelocityMultipliers, i) * velocities + Double4.Load(constants, i);
             (Double4.Load(Impulses, i) + deltas).Store(Impulses, i);
             Add(rows[0], deltas.Spread(0), ref linear, ref angular0, ref angular1);
             Add(rows[1], deltas.Spread(1), ref linear, ref angular0, ref angular1);
@@ -108,7 +105,7 @@ internal sealed class SweepRows
         for (; i < end; i++)
         {
             ref RowVectors row = ref Vectors[i];
-            double delta = VelocityMultipliers[i] * Products(row, relative, before0, before1).Sum3 + Constants[i];
+            double delta = VelocityMultipliers[i] * Products(row, relative, before0, before1).Sum3 + constants[i];
             Impulses[i] += delta;
             linear += delta * row.Linear;
             angular0 += delta * row.Sqrt0;

@@ -4,43 +4,6 @@ using Kinefab.Numerics;
 
 namespace Kinefab.Dynamics.Rattle;
 
-/// <summary>Islands that are stepped one after the other or, being of one shape, side by side.</summary>
-internal abstract class IslandGroup
-{
-    /// <summary>One step of all islands.</summary>
-    public abstract void Step(double dt, double tolerance);
-
-    /// <summary>What the next step takes from those before it.</summary>
-    public abstract void Exchange(StateTape tape);
-
-    /// <summary>Tells the mechanism what a step controller's last step has to say of an island.</summary>
-    /// <param name="mechanism">Takes the notes.</param>
-    /// <param name="controller">The one that made the step.</param>
-    /// <param name="island">The island that was stepped.</param>
-    /// <param name="stopsBefore">The step controller's stops before the step.</param>
-    protected static void Note(MultibodySystem mechanism, StepController controller, Island island, int stopsBefore)
-    {
-        mechanism.SubstepWork += (controller.Tries - 1.0) * island.Blocks.Length;
-        if (controller.HasClosed)
-        {
-            mechanism.Closed.Add(controller.Closed(island));
-        }
-
-        if (controller.HasForbiddenSpeed)
-        {
-            mechanism.ForbiddenSpeeds.Add(controller.Forbidden(island));
-        }
-
-        if (controller.DampedSteps > stopsBefore)
-        {
-            mechanism.Stops += controller.DampedSteps - stopsBefore;
-            mechanism.Unsolved.Add(controller.Unsolved(island));
-        }
-
-        controller.AddHeldLimits(island, mechanism.HeldLimits);
-    }
-}
-
 /// <summary>
 /// Islands of locked axes alone, in lanes. All lanes try a plain RATTLE step together; those that it does not suffice
 /// are taken out and go down the step controller by themselves, so that no lane's result depends on its neighbours'.
@@ -66,7 +29,8 @@ internal sealed class LaneIslandGroup<V> : IslandGroup
         var workspace = new Workspace<V>(_islands[0]);
         for (int i = 0; i < _batches.Length; i++)
         {
-            var batch = new LaneBatch<V>(_islands[i * width], workspace);
+            // All of one shape object, so that what it says is read from memory once.
+            var batch = new LaneBatch<V>(_islands[0], workspace);
             for (int lane = 0; lane < width; lane++)
             {
                 LaneTransfer<V>.GatherConstants(batch, lane, Occupant(i, lane), mechanism);
@@ -218,7 +182,7 @@ internal sealed class LaneIslandGroup<V> : IslandGroup
         RattleStep<ScalarLane>.Rebuild(_spare);
         int stops = _controller.DampedSteps;
         _controller.Advance(dt, tolerance, ref History(index, lane), hasFailed, batch.Work.Moved[lane] != 0);
-        Note(_mechanism, _controller, island, stops);
+        Note(_controller, island, stops);
         LaneTransfer<V>.CopyLane(batch, lane, _spare);
     }
 

@@ -9,7 +9,7 @@ namespace Kinefab.Dynamics.Rattle;
 /// Solves each island of a mechanism directly: maximal coordinates, one block-sparse factorisation a step, closed to
 /// the tolerance at position level, so that the mechanism's true motion is known.
 /// </summary>
-internal sealed class RattleSolver : ISolver
+internal sealed class RattleSolver : ISolver, IStepParts
 {
     // Largest gap, metres or radians, that a step may leave: at 1/60 s the first, in shorter steps by the square of the step
     // less, so that what a gap leaves in the speeds, gap / h, does not outweigh the method's own error, which falls with
@@ -18,11 +18,16 @@ internal sealed class RattleSolver : ISolver
     private const double LeastGap = 2e-13;
     private const double GapAcceleration = 3.6e-6;
 
+    // Islands of a group at most: what one thread takes at a time. Each group has room of its own to step an island alone.
+    private const int MostInGroup = 24;
+
     private readonly MultibodySystem _mechanism;
     private readonly int _maxWidth;
     private readonly List<IslandGroup> _groups = new();
     private readonly Dictionary<int, LoopConsistency> _fits = new();
     private LayoutWatch _watch;
+    private double _dt;
+    private double _tolerance;
 
     /// <summary>A solver for the mechanism as it stands.</summary>
     /// <param name="mechanism">Bodies and joints.</param>
@@ -69,10 +74,12 @@ internal sealed class RattleSolver : ISolver
         _mechanism.Closed.Clear();
         _mechanism.ForbiddenSpeeds.Clear();
         _mechanism.HeldLimits.Clear();
-        double tolerance = Math.Min(MostGap, Math.Max(LeastGap, GapAcceleration * dt * dt));
+        _dt = dt;
+        _tolerance = Math.Min(MostGap, Math.Max(LeastGap, GapAcceleration * dt * dt));
+        StepThreads.ForEach(this, _groups.Count, _mechanism.Threads);
         foreach (IslandGroup group in _groups)
         {
-            group.Step(dt, tolerance);
+            group.Report(_mechanism);
         }
 
         Bodies bodies = _mechanism.Bodies;
@@ -87,6 +94,9 @@ internal sealed class RattleSolver : ISolver
         Array.Clear(bodies.Forces, 0, bodies.Count);
         Array.Clear(bodies.Torques, 0, bodies.Count);
     }
+
+    /// <inheritdoc/>
+    void IStepParts.Do(int part) => _groups[part].Step(_dt, _tolerance);
 
     /// <inheritdoc/>
     public void Exchange(StateTape tape)
@@ -133,9 +143,9 @@ internal sealed class RattleSolver : ISolver
 
         List<Island> prepared = rest.FindAll(island => island.HasAssembledRows);
         rest.RemoveAll(island => island.HasAssembledRows);
-        if (prepared.Count > 0)
+        foreach (List<Island> some in InGroups(prepared))
         {
-            _groups.Add(new ScalarIslandGroup(_mechanism, prepared));
+            _groups.Add(new ScalarIslandGroup(_mechanism, some));
         }
 
         while (rest.Count > 0)
@@ -153,19 +163,33 @@ internal sealed class RattleSolver : ISolver
         if (_maxWidth >= 8 && islands.Count >= 8 && System.Runtime.Intrinsics.Vector512.IsHardwareAccelerated)
         {
             int whole = islands.Count / 8 * 8;
-            _groups.Add(new LaneIslandGroup<Lane8>(_mechanism, islands.GetRange(0, whole)));
+            AddGroups<Lane8>(islands.GetRange(0, whole));
             islands.RemoveRange(0, whole);
         }
 
         if (_maxWidth >= 4 && islands.Count >= 2 && System.Runtime.Intrinsics.Vector256.IsHardwareAccelerated)
         {
-            _groups.Add(new LaneIslandGroup<Lane4>(_mechanism, islands));
+            AddGroups<Lane4>(islands);
             return;
         }
 #endif
-        if (islands.Count > 0)
+        AddGroups<ScalarLane>(islands);
+    }
+
+    private void AddGroups<V>(List<Island> islands)
+        where V : struct, ILane<V>
+    {
+        foreach (List<Island> some in InGroups(islands))
         {
-            _groups.Add(new LaneIslandGroup<ScalarLane>(_mechanism, islands));
+            _groups.Add(new LaneIslandGroup<V>(_mechanism, some));
+        }
+    }
+
+    private static IEnumerable<List<Island>> InGroups(List<Island> islands)
+    {
+        for (int first = 0; first < islands.Count; first += MostInGroup)
+        {
+            yield return islands.GetRange(first, Math.Min(MostInGroup, islands.Count - first));
         }
     }
 }

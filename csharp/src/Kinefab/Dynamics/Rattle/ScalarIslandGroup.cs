@@ -49,7 +49,7 @@ internal sealed class ScalarIslandGroup : IslandGroup
             RattleStep<ScalarLane>.ReloadState(batch);
             int stops = _controllers[i].DampedSteps;
             _controllers[i].Advance(dt, tolerance, ref _histories[i], false, isMoved);
-            Note(_mechanism, _controllers[i], _islands[i], stops);
+            Note(_controllers[i], _islands[i], stops);
             if (_controllers[i].DampedSteps == stops)
             {
                 _corrections[i]?.Apply();

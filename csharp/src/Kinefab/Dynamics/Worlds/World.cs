@@ -23,6 +23,7 @@ public sealed partial class World
     private readonly bool[] _broken;
     private readonly ExactStepFindings _exact = new();
     private readonly WorldNames _names;
+    private readonly JointUpkeep _upkeep;
 
     private World(ValidScene scene, SolverKind kind, MultibodySystem mechanism, ISolver solver, WorldBody[] bodies, WorldJoint[] joints, WorldNames names, Report findings)
     {
@@ -31,6 +32,7 @@ public sealed partial class World
         _mechanism = mechanism;
         _solver = solver;
         _broken = new bool[joints.Length];
+        _upkeep = new JointUpkeep(joints, kind == SolverKind.Exact ? 0.5 : 1);
         Bodies = bodies;
         Joints = joints;
         _names = names;
@@ -67,6 +69,19 @@ public sealed partial class World
     {
         get => _mechanism.Gravity;
         set => _mechanism.Gravity = value.FiniteOrThrow(nameof(value));
+    }
+
+    /// <summary>
+    /// How many threads a step may use, the caller's among them; 1 unless it is set. Mechanisms that do not hang together are shared out
+    /// among them; the result has the same bits with any number. It pays from some hundred joints on, in some dozens of mechanisms. The
+    /// others are background threads of the process, made when first needed; of several worlds that step at once, one has them. In unity,
+    /// scenes with couplings or ArticulationBodies are stepped by one thread.
+    /// </summary>
+    /// <exception cref="ArgumentOutOfRangeException">It is less than 1.</exception>
+    public int Threads
+    {
+        get => _mechanism.Threads;
+        set => _mechanism.Threads = value >= 1 ? value : throw new ArgumentOutOfRangeException(nameof(value), "At least 1.");
     }
 
     /// <summary>
@@ -216,11 +231,7 @@ public sealed partial class World
             }
         }
 
-        for (int i = 0; i < Joints.Count; i++)
-        {
-            Joints[i].BeforeStep();
-        }
-
+        _upkeep.BeforeStep(Threads);
         _solver.Step(dt);
         if (_mechanism.Unsolved.Count > 0 || _mechanism.Closed.Count > 0 || _mechanism.ForbiddenSpeeds.Count > 0 || _mechanism.HeldLimits.Count > 0)
         {
@@ -229,10 +240,10 @@ public sealed partial class World
         }
 
         Time += dt;
+        _upkeep.AfterStep(dt, Threads);
         for (int i = 0; i < Joints.Count; i++)
         {
             WorldJoint joint = Joints[i];
-            joint.AfterStep(dt, Solver == SolverKind.Exact ? 0.5 : 1);
             if (joint.IsBroken && !_broken[i])
             {
                 _broken[i] = true;

@@ -14,11 +14,11 @@ internal interface ILane<TSelf>
     /// <summary>Number of lanes; the same for every value of the type.</summary>
     int Width { get; }
 
-    /// <summary>Width doubles from the index on; the receiver's value does not matter.</summary>
-    TSelf Load(double[] array, int index);
+    /// <summary>Width doubles from the index on, skipping so many lanes' before; the receiver's value does not matter.</summary>
+    TSelf Load(double[] array, int index, int skip);
 
-    /// <summary>Writes Width doubles from the index on.</summary>
-    void Store(double[] array, int index);
+    /// <summary>Writes Width doubles there.</summary>
+    void Store(double[] array, int index, int skip);
 
     /// <summary>For each lane one number of a record of its own: from[records[lane] * stride + column]; the receiver's value does not matter.</summary>
     TSelf Gather(ReadOnlySpan<double> from, ReadOnlySpan<int> records, int stride, int column);
@@ -66,11 +66,12 @@ internal readonly struct Lane<V>
         get => default(V).Width;
     }
 
+    /// <summary>The numbers at index + skip * Width. A constant skip is part of the load's address and costs nothing.</summary>
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
-    public static Lane<V> Load(double[] array, int index) => new(default(V).Load(array, index));
+    public static Lane<V> Load(double[] array, int index, int skip = 0) => new(default(V).Load(array, index, skip));
 
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
-    public void Store(double[] array, int index) => _value.Store(array, index);
+    public void Store(double[] array, int index, int skip = 0) => _value.Store(array, index, skip);
 
     /// <inheritdoc cref="ILane{TSelf}.Gather"/>
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
@@ -124,20 +125,20 @@ internal readonly struct ScalarLane : ILane<ScalarLane>
     }
 
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
-    public ScalarLane Load(double[] array, int index) =>
+    public ScalarLane Load(double[] array, int index, int skip) =>
 #if NET
-        new(Unsafe.Add(ref System.Runtime.InteropServices.MemoryMarshal.GetArrayDataReference(array), (nint)(uint)index));
+        new(Unsafe.Add(ref System.Runtime.InteropServices.MemoryMarshal.GetArrayDataReference(array), (nint)(uint)index + skip));
 #else
-        new(array[index]);
+        new(array[index + skip]);
 #endif
 
 
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
-    public void Store(double[] array, int index) =>
+    public void Store(double[] array, int index, int skip) =>
 #if NET
-        Unsafe.Add(ref System.Runtime.InteropServices.MemoryMarshal.GetArrayDataReference(array), (nint)(uint)index) = _value;
+        Unsafe.Add(ref System.Runtime.InteropServices.MemoryMarshal.GetArrayDataReference(array), (nint)(uint)index + skip) = _value;
 #else
-        array[index] = _value;
+        array[index + skip] = _value;
 #endif
 
 

@@ -20,10 +20,10 @@ internal readonly struct LaneVector<V>
     }
 
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
-    public static LaneVector<V> Load(double[] array, int index) => new(
-        Lane<V>.Load(array, index),
-        Lane<V>.Load(array, index + Lane<V>.Width),
-        Lane<V>.Load(array, index + 2 * Lane<V>.Width));
+    public static LaneVector<V> Load(double[] array, int index, int skip = 0) => new(
+        Lane<V>.Load(array, index, skip),
+        Lane<V>.Load(array, index, skip + 1),
+        Lane<V>.Load(array, index, skip + 2));
 
     /// <summary>Columns from the given one on of each lane's record: see <see cref="ILane{TSelf}.Gather"/>.</summary>
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
@@ -33,11 +33,11 @@ internal readonly struct LaneVector<V>
         Lane<V>.Gather(from, records, stride, column + 2));
 
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
-    public void Store(double[] array, int index)
+    public void Store(double[] array, int index, int skip = 0)
     {
-        X.Store(array, index);
-        Y.Store(array, index + Lane<V>.Width);
-        Z.Store(array, index + 2 * Lane<V>.Width);
+        X.Store(array, index, skip);
+        Y.Store(array, index, skip + 1);
+        Z.Store(array, index, skip + 2);
     }
 
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
@@ -52,16 +52,15 @@ internal readonly struct LaneVector<V>
 
     /// <summary>A vector times the symmetric matrix that stands at the index: xx, yy, zz, xy, xz, yz.</summary>
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
-    public static LaneVector<V> Transform(double[] array, int index, LaneVector<V> v)
+    public static LaneVector<V> Transform(double[] array, int index, int skip, LaneVector<V> v)
     {
-        int w = Lane<V>.Width;
-        Lane<V> xy = Lane<V>.Load(array, index + 3 * w);
-        Lane<V> xz = Lane<V>.Load(array, index + 4 * w);
-        Lane<V> yz = Lane<V>.Load(array, index + 5 * w);
+        Lane<V> xy = Lane<V>.Load(array, index, skip + 3);
+        Lane<V> xz = Lane<V>.Load(array, index, skip + 4);
+        Lane<V> yz = Lane<V>.Load(array, index, skip + 5);
         return new LaneVector<V>(
-            Lane<V>.Load(array, index) * v.X + xy * v.Y + xz * v.Z,
-            xy * v.X + Lane<V>.Load(array, index + w) * v.Y + yz * v.Z,
-            xz * v.X + yz * v.Y + Lane<V>.Load(array, index + 2 * w) * v.Z);
+            Lane<V>.Load(array, index, skip) * v.X + xy * v.Y + xz * v.Z,
+            xy * v.X + Lane<V>.Load(array, index, skip + 1) * v.Y + yz * v.Z,
+            xz * v.X + yz * v.Y + Lane<V>.Load(array, index, skip + 2) * v.Z);
     }
 
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
@@ -102,14 +101,14 @@ internal readonly struct LaneQuaternion<V>
     }
 
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
-    public static LaneQuaternion<V> Load(double[] array, int index) =>
-        new(LaneVector<V>.Load(array, index), Lane<V>.Load(array, index + 3 * Lane<V>.Width));
+    public static LaneQuaternion<V> Load(double[] array, int index, int skip) =>
+        new(LaneVector<V>.Load(array, index, skip), Lane<V>.Load(array, index, skip + 3));
 
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
-    public void Store(double[] array, int index)
+    public void Store(double[] array, int index, int skip)
     {
-        Vector.Store(array, index);
-        W.Store(array, index + 3 * Lane<V>.Width);
+        Vector.Store(array, index, skip);
+        W.Store(array, index, skip + 3);
     }
 
     /// <summary>First b, then a.</summary>
@@ -184,17 +183,16 @@ internal readonly struct LaneQuaternion<V>
 
     /// <summary>Writes the rotation matrix, row-major.</summary>
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
-    public void StoreMatrix(double[] array, int index)
+    public void StoreMatrix(double[] array, int index, int skip)
     {
         Lane<V> one = Lane<V>.Splat(1);
         Lane<V> x2 = Vector.X + Vector.X, y2 = Vector.Y + Vector.Y, z2 = Vector.Z + Vector.Z;
         Lane<V> xx = x2 * Vector.X, yy = y2 * Vector.Y, zz = z2 * Vector.Z;
         Lane<V> xy = x2 * Vector.Y, xz = x2 * Vector.Z, yz = y2 * Vector.Z;
         Lane<V> xw = x2 * W, yw = y2 * W, zw = z2 * W;
-        int row = 3 * Lane<V>.Width;
-        new LaneVector<V>(one - yy - zz, xy - zw, xz + yw).Store(array, index);
-        new LaneVector<V>(xy + zw, one - xx - zz, yz - xw).Store(array, index + row);
-        new LaneVector<V>(xz - yw, yz + xw, one - xx - yy).Store(array, index + 2 * row);
+        new LaneVector<V>(one - yy - zz, xy - zw, xz + yw).Store(array, index, skip);
+        new LaneVector<V>(xy + zw, one - xx - zz, yz - xw).Store(array, index, skip + 3);
+        new LaneVector<V>(xz - yw, yz + xw, one - xx - yy).Store(array, index, skip + 6);
     }
 
     // The rotation by half the angle: (v, 1 + w) brought to length 1.

@@ -20,10 +20,12 @@ internal readonly struct Lane4 : ILane<Lane4>
     }
 
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
-    public Lane4 Load(double[] array, int index) => new(Vector256.LoadUnsafe(ref System.Runtime.InteropServices.MemoryMarshal.GetArrayDataReference(array), (nuint)index));
+    public Lane4 Load(double[] array, int index, int skip) =>
+        new(Vector256.LoadUnsafe(ref System.Runtime.InteropServices.MemoryMarshal.GetArrayDataReference(array), (nuint)(uint)index + (nuint)(4 * skip)));
 
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
-    public void Store(double[] array, int index) => _value.StoreUnsafe(ref System.Runtime.InteropServices.MemoryMarshal.GetArrayDataReference(array), (nuint)index);
+    public void Store(double[] array, int index, int skip) =>
+        _value.StoreUnsafe(ref System.Runtime.InteropServices.MemoryMarshal.GetArrayDataReference(array), (nuint)(uint)index + (nuint)(4 * skip));
 
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
     public Lane4 Gather(ReadOnlySpan<double> from, ReadOnlySpan<int> records, int stride, int column) =>
@@ -78,10 +80,12 @@ internal readonly struct Lane8 : ILane<Lane8>
     }
 
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
-    public Lane8 Load(double[] array, int index) => new(Vector512.LoadUnsafe(ref System.Runtime.InteropServices.MemoryMarshal.GetArrayDataReference(array), (nuint)index));
+    public Lane8 Load(double[] array, int index, int skip) =>
+        new(Vector512.LoadUnsafe(ref System.Runtime.InteropServices.MemoryMarshal.GetArrayDataReference(array), (nuint)(uint)index + (nuint)(8 * skip)));
 
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
-    public void Store(double[] array, int index) => _value.StoreUnsafe(ref System.Runtime.InteropServices.MemoryMarshal.GetArrayDataReference(array), (nuint)index);
+    public void Store(double[] array, int index, int skip) =>
+        _value.StoreUnsafe(ref System.Runtime.InteropServices.MemoryMarshal.GetArrayDataReference(array), (nuint)(uint)index + (nuint)(8 * skip));
 
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
     public Lane8 Gather(ReadOnlySpan<double> from, ReadOnlySpan<int> records, int stride, int column) =>

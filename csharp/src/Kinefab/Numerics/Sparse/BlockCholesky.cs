@@ -145,25 +145,25 @@ internal static class BlockCholesky<V>
         l20.Store(a, row2);
         l30.Store(a, row3);
         l40.Store(a, row4);
-        d = InverseRoot(Lane<V>.Load(a, row1 + w) - l10 * l10);
-        d.Store(a, row1 + w);
-        Lane<V> l21 = (Lane<V>.Load(a, row2 + w) - l20 * l10) * d;
-        Lane<V> l31 = (Lane<V>.Load(a, row3 + w) - l30 * l10) * d;
-        Lane<V> l41 = (Lane<V>.Load(a, row4 + w) - l40 * l10) * d;
-        l21.Store(a, row2 + w);
-        l31.Store(a, row3 + w);
-        l41.Store(a, row4 + w);
-        d = InverseRoot(Lane<V>.Load(a, row2 + 2 * w) - l20 * l20 - l21 * l21);
-        d.Store(a, row2 + 2 * w);
-        Lane<V> l32 = (Lane<V>.Load(a, row3 + 2 * w) - l30 * l20 - l31 * l21) * d;
-        Lane<V> l42 = (Lane<V>.Load(a, row4 + 2 * w) - l40 * l20 - l41 * l21) * d;
-        l32.Store(a, row3 + 2 * w);
-        l42.Store(a, row4 + 2 * w);
-        d = InverseRoot(Lane<V>.Load(a, row3 + 3 * w) - l30 * l30 - l31 * l31 - l32 * l32);
-        d.Store(a, row3 + 3 * w);
-        Lane<V> l43 = (Lane<V>.Load(a, row4 + 3 * w) - l40 * l30 - l41 * l31 - l42 * l32) * d;
-        l43.Store(a, row4 + 3 * w);
-        InverseRoot(Lane<V>.Load(a, row4 + 4 * w) - l40 * l40 - l41 * l41 - l42 * l42 - l43 * l43).Store(a, row4 + 4 * w);
+        d = InverseRoot(Lane<V>.Load(a, row1, 1) - l10 * l10);
+        d.Store(a, row1, 1);
+        Lane<V> l21 = (Lane<V>.Load(a, row2, 1) - l20 * l10) * d;
+        Lane<V> l31 = (Lane<V>.Load(a, row3, 1) - l30 * l10) * d;
+        Lane<V> l41 = (Lane<V>.Load(a, row4, 1) - l40 * l10) * d;
+        l21.Store(a, row2, 1);
+        l31.Store(a, row3, 1);
+        l41.Store(a, row4, 1);
+        d = InverseRoot(Lane<V>.Load(a, row2, 2) - l20 * l20 - l21 * l21);
+        d.Store(a, row2, 2);
+        Lane<V> l32 = (Lane<V>.Load(a, row3, 2) - l30 * l20 - l31 * l21) * d;
+        Lane<V> l42 = (Lane<V>.Load(a, row4, 2) - l40 * l20 - l41 * l21) * d;
+        l32.Store(a, row3, 2);
+        l42.Store(a, row4, 2);
+        d = InverseRoot(Lane<V>.Load(a, row3, 3) - l30 * l30 - l31 * l31 - l32 * l32);
+        d.Store(a, row3, 3);
+        Lane<V> l43 = (Lane<V>.Load(a, row4, 3) - l40 * l30 - l41 * l31 - l42 * l32) * d;
+        l43.Store(a, row4, 3);
+        InverseRoot(Lane<V>.Load(a, row4, 4) - l40 * l40 - l41 * l41 - l42 * l42 - l43 * l43).Store(a, row4, 4);
     }
 
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
@@ -205,16 +205,16 @@ internal static class BlockCholesky<V>
         {
             Lane<V> x0 = Lane<V>.Load(b, at) * Lane<V>.Load(a, row0);
             x0.Store(b, at);
-            Lane<V> x1 = (Lane<V>.Load(b, at + w) - x0 * Lane<V>.Load(a, row1)) * Lane<V>.Load(a, row1 + w);
-            x1.Store(b, at + w);
-            Lane<V> x2 = (Lane<V>.Load(b, at + 2 * w) - x0 * Lane<V>.Load(a, row2) - x1 * Lane<V>.Load(a, row2 + w)) * Lane<V>.Load(a, row2 + 2 * w);
-            x2.Store(b, at + 2 * w);
-            Lane<V> x3 = (Lane<V>.Load(b, at + 3 * w) - x0 * Lane<V>.Load(a, row3) - x1 * Lane<V>.Load(a, row3 + w)
-                - x2 * Lane<V>.Load(a, row3 + 2 * w)) * Lane<V>.Load(a, row3 + 3 * w);
-            x3.Store(b, at + 3 * w);
-            Lane<V> x4 = (Lane<V>.Load(b, at + 4 * w) - x0 * Lane<V>.Load(a, row4) - x1 * Lane<V>.Load(a, row4 + w)
-                - x2 * Lane<V>.Load(a, row4 + 2 * w) - x3 * Lane<V>.Load(a, row4 + 3 * w)) * Lane<V>.Load(a, row4 + 4 * w);
-            x4.Store(b, at + 4 * w);
+            Lane<V> x1 = (Lane<V>.Load(b, at, 1) - x0 * Lane<V>.Load(a, row1)) * Lane<V>.Load(a, row1, 1);
+            x1.Store(b, at, 1);
+            Lane<V> x2 = (Lane<V>.Load(b, at, 2) - x0 * Lane<V>.Load(a, row2) - x1 * Lane<V>.Load(a, row2, 1)) * Lane<V>.Load(a, row2, 2);
+            x2.Store(b, at, 2);
+            Lane<V> x3 = (Lane<V>.Load(b, at, 3) - x0 * Lane<V>.Load(a, row3) - x1 * Lane<V>.Load(a, row3, 1)
+                - x2 * Lane<V>.Load(a, row3, 2)) * Lane<V>.Load(a, row3, 3);
+            x3.Store(b, at, 3);
+            Lane<V> x4 = (Lane<V>.Load(b, at, 4) - x0 * Lane<V>.Load(a, row4) - x1 * Lane<V>.Load(a, row4, 1)
+                - x2 * Lane<V>.Load(a, row4, 2) - x3 * Lane<V>.Load(a, row4, 3)) * Lane<V>.Load(a, row4, 4);
+            x4.Store(b, at, 4);
         }
     }
 
@@ -245,26 +245,26 @@ internal static class BlockCholesky<V>
     {
         int w = Lane<V>.Width;
         g += 4 * stride;
-        Lane<V> x4 = Lane<V>.Load(b, at + 4 * w) * Lane<V>.Load(a, g + 4 * w);
-        x4.Store(b, at + 4 * w);
-        Lane<V> x3 = Lane<V>.Load(b, at + 3 * w) - x4 * Lane<V>.Load(a, g + 3 * w);
-        Lane<V> x2 = Lane<V>.Load(b, at + 2 * w) - x4 * Lane<V>.Load(a, g + 2 * w);
-        Lane<V> x1 = Lane<V>.Load(b, at + w) - x4 * Lane<V>.Load(a, g + w);
+        Lane<V> x4 = Lane<V>.Load(b, at, 4) * Lane<V>.Load(a, g, 4);
+        x4.Store(b, at, 4);
+        Lane<V> x3 = Lane<V>.Load(b, at, 3) - x4 * Lane<V>.Load(a, g, 3);
+        Lane<V> x2 = Lane<V>.Load(b, at, 2) - x4 * Lane<V>.Load(a, g, 2);
+        Lane<V> x1 = Lane<V>.Load(b, at, 1) - x4 * Lane<V>.Load(a, g, 1);
         Lane<V> x0 = Lane<V>.Load(b, at) - x4 * Lane<V>.Load(a, g);
         g -= stride;
-        x3 *= Lane<V>.Load(a, g + 3 * w);
-        x3.Store(b, at + 3 * w);
-        x2 -= x3 * Lane<V>.Load(a, g + 2 * w);
-        x1 -= x3 * Lane<V>.Load(a, g + w);
+        x3 *= Lane<V>.Load(a, g, 3);
+        x3.Store(b, at, 3);
+        x2 -= x3 * Lane<V>.Load(a, g, 2);
+        x1 -= x3 * Lane<V>.Load(a, g, 1);
         x0 -= x3 * Lane<V>.Load(a, g);
         g -= stride;
-        x2 *= Lane<V>.Load(a, g + 2 * w);
-        x2.Store(b, at + 2 * w);
-        x1 -= x2 * Lane<V>.Load(a, g + w);
+        x2 *= Lane<V>.Load(a, g, 2);
+        x2.Store(b, at, 2);
+        x1 -= x2 * Lane<V>.Load(a, g, 1);
         x0 -= x2 * Lane<V>.Load(a, g);
         g -= stride;
-        x1 *= Lane<V>.Load(a, g + w);
-        x1.Store(b, at + w);
+        x1 *= Lane<V>.Load(a, g, 1);
+        x1.Store(b, at, 1);
         x0 -= x1 * Lane<V>.Load(a, g);
         (x0 * Lane<V>.Load(a, g - stride)).Store(b, at);
     }
@@ -281,14 +281,14 @@ internal static class BlockCholesky<V>
             int t = 0;
             if (n >= Five)
             {
-                Lane<V> x0 = Lane<V>.Load(b, x), x1 = Lane<V>.Load(b, x + w), x2 = Lane<V>.Load(b, x + 2 * w);
-                Lane<V> x3 = Lane<V>.Load(b, x + 3 * w), x4 = Lane<V>.Load(b, x + 4 * w);
+                Lane<V> x0 = Lane<V>.Load(b, x), x1 = Lane<V>.Load(b, x, 1), x2 = Lane<V>.Load(b, x, 2);
+                Lane<V> x3 = Lane<V>.Load(b, x, 3), x4 = Lane<V>.Load(b, x, 4);
                 int row = y;
                 for (int to = c; to < end; to += w, row += n * w)
                 {
                     Lane<V> s = Lane<V>.Load(b, to);
-                    s = s - x0 * Lane<V>.Load(a, row) - x1 * Lane<V>.Load(a, row + w) - x2 * Lane<V>.Load(a, row + 2 * w)
-                        - x3 * Lane<V>.Load(a, row + 3 * w) - x4 * Lane<V>.Load(a, row + 4 * w);
+                    s = s - x0 * Lane<V>.Load(a, row) - x1 * Lane<V>.Load(a, row, 1) - x2 * Lane<V>.Load(a, row, 2)
+                        - x3 * Lane<V>.Load(a, row, 3) - x4 * Lane<V>.Load(a, row, 4);
                     s.Store(b, to);
                 }
 
@@ -336,24 +336,24 @@ internal static class BlockCholesky<V>
         int i = 0;
         if (n >= Five)
         {
-            Lane<V> s0 = Lane<V>.Load(b, to), s1 = Lane<V>.Load(b, to + w), s2 = Lane<V>.Load(b, to + 2 * w);
-            Lane<V> s3 = Lane<V>.Load(b, to + 3 * w), s4 = Lane<V>.Load(b, to + 4 * w);
+            Lane<V> s0 = Lane<V>.Load(b, to), s1 = Lane<V>.Load(b, to, 1), s2 = Lane<V>.Load(b, to, 2);
+            Lane<V> s3 = Lane<V>.Load(b, to, 3), s4 = Lane<V>.Load(b, to, 4);
             int row = matrix;
             for (int t = 0; t < m * w; t += w, row += n * w)
             {
                 Lane<V> x = Lane<V>.Load(b, from + t);
                 s0 -= x * Lane<V>.Load(a, row);
-                s1 -= x * Lane<V>.Load(a, row + w);
-                s2 -= x * Lane<V>.Load(a, row + 2 * w);
-                s3 -= x * Lane<V>.Load(a, row + 3 * w);
-                s4 -= x * Lane<V>.Load(a, row + 4 * w);
+                s1 -= x * Lane<V>.Load(a, row, 1);
+                s2 -= x * Lane<V>.Load(a, row, 2);
+                s3 -= x * Lane<V>.Load(a, row, 3);
+                s4 -= x * Lane<V>.Load(a, row, 4);
             }
 
             s0.Store(b, to);
-            s1.Store(b, to + w);
-            s2.Store(b, to + 2 * w);
-            s3.Store(b, to + 3 * w);
-            s4.Store(b, to + 4 * w);
+            s1.Store(b, to, 1);
+            s2.Store(b, to, 2);
+            s3.Store(b, to, 3);
+            s4.Store(b, to, 4);
             i = Five;
         }
 

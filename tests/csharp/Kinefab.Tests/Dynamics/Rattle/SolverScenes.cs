@@ -56,23 +56,30 @@ internal static class SolverScenes
     }
 
     /// <summary>The same bars hanging straight down, the lowest given a push: nothing whips, every step is a plain one.</summary>
-    public static MultibodySystem HangingChain(int links)
+    public static MultibodySystem HangingChain(int links) => HangingChains(1, links);
+
+    /// <summary>Several of them, each an island.</summary>
+    public static MultibodySystem HangingChains(int count, int links)
     {
         var builder = new MechanismBuilder();
-        int last = JointModel.World;
-        for (int i = 0; i < links; i++)
+        for (int chain = 0; chain < count; chain++)
         {
-            int bar = builder.Bar(new Vector3d(0, -0.2 * i, 0), new Vector3d(0, -0.2 * (i + 1), 0), 1);
-            builder.Hinge(last, bar, new Vector3d(0, -0.2 * i, 0), Z);
-            last = bar;
+            int last = JointModel.World;
+            for (int i = 0; i < links; i++)
+            {
+                int bar = builder.Bar(new Vector3d(0, -0.2 * i, chain), new Vector3d(0, -0.2 * (i + 1), chain), 1);
+                builder.Hinge(last, bar, new Vector3d(0, -0.2 * i, chain), Z);
+                last = bar;
+            }
+
+            builder.Change(last, d =>
+            {
+                d.LinearVelocity = new Vector3d(0.1, 0, 0);
+                d.AngularVelocity = new Vector3d(0, 0, 1);
+                return d;
+            });
         }
 
-        builder.Change(last, d =>
-        {
-            d.LinearVelocity = new Vector3d(0.1, 0, 0);
-            d.AngularVelocity = new Vector3d(0, 0, 1);
-            return d;
-        });
         return builder.Build();
     }
 

@@ -208,7 +208,7 @@ internal static class BilateralRows<V>
     public static LaneVector<V> BuiltLever(double[] rows, int first)
     {
         int w = Lane<V>.Width;
-        return new LaneVector<V>(Lane<V>.Load(rows, first + 8 * w), Lane<V>.Load(rows, first + 12 * w), Lane<V>.Load(rows, first + w));
+        return new LaneVector<V>(Lane<V>.Load(rows, first, 8), Lane<V>.Load(rows, first, 12), Lane<V>.Load(rows, first, 1));
     }
 
     // r x e for e = x, y, z: (0, rz, -ry), (-rz, 0, rx), (ry, -rx, 0); the linear parts are known by RowClass.

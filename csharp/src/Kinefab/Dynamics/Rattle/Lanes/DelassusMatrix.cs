@@ -60,17 +60,17 @@ internal static class DelassusMatrix<V>
         int r = LaneRecords<V>.Body(body, BodyLanes.R);
         LaneVector<V> inverse = LaneVector<V>.Load(a, LaneRecords<V>.Body(body, BodyLanes.InverseInertia));
         LaneVector<V> x = LaneVector<V>.Load(a, r);
-        LaneVector<V> y = LaneVector<V>.Load(a, r + 3 * w);
-        LaneVector<V> z = LaneVector<V>.Load(a, r + 6 * w);
+        LaneVector<V> y = LaneVector<V>.Load(a, r, 3);
+        LaneVector<V> z = LaneVector<V>.Load(a, r, 6);
         LaneVector<V> sx = LaneVector<V>.Scale(inverse, x);
         LaneVector<V> sy = LaneVector<V>.Scale(inverse, y);
         int o = LaneRecords<V>.Body(body, BodyLanes.WorldInverse);
         LaneVector<V>.Dot(sx, x).Store(a, o);
-        LaneVector<V>.Dot(sy, y).Store(a, o + w);
-        LaneVector<V>.Dot(LaneVector<V>.Scale(inverse, z), z).Store(a, o + 2 * w);
-        LaneVector<V>.Dot(sx, y).Store(a, o + 3 * w);
-        LaneVector<V>.Dot(sx, z).Store(a, o + 4 * w);
-        LaneVector<V>.Dot(sy, z).Store(a, o + 5 * w);
+        LaneVector<V>.Dot(sy, y).Store(a, o, 1);
+        LaneVector<V>.Dot(LaneVector<V>.Scale(inverse, z), z).Store(a, o, 2);
+        LaneVector<V>.Dot(sx, y).Store(a, o, 3);
+        LaneVector<V>.Dot(sx, z).Store(a, o, 4);
+        LaneVector<V>.Dot(sy, z).Store(a, o, 5);
     }
 
     /// <summary>Fills the responses of all rows, the matrix from J and the bodies' inverse inertias.</summary>
@@ -157,7 +157,7 @@ internal static class DelassusMatrix<V>
         int w = Lane<V>.Width;
         int inverse = LaneRecords<V>.Body(body, BodyLanes.WorldInverse);
         Lane<V>.Sqrt(Lane<V>.Load(batch.Bodies, LaneRecords<V>.Body(body, BodyLanes.InverseMass))).Store(batch.Work.HubRoots, to);
-        LaneVector<V> diagonal = LaneVector<V>.Load(batch.Bodies, inverse), off = LaneVector<V>.Load(batch.Bodies, inverse + 3 * w);
+        LaneVector<V> diagonal = LaneVector<V>.Load(batch.Bodies, inverse), off = LaneVector<V>.Load(batch.Bodies, inverse, 3);
         var x = new LaneVector<V>(diagonal.X, off.X, off.Y);
         var y = new LaneVector<V>(off.X, diagonal.Y, off.Z);
         var z = new LaneVector<V>(off.Y, off.Z, diagonal.Z);
@@ -172,7 +172,7 @@ internal static class DelassusMatrix<V>
             z -= root.Z * root;
         }
 
-        least.Store(batch.Work.HubRoots, to + 3 * w);
+        least.Store(batch.Work.HubRoots, to, 3);
     }
 
     // The column of the largest diagonal entry over its root.
@@ -204,16 +204,16 @@ internal static class DelassusMatrix<V>
             LaneVector<V> linear = Lane<V>.Load(roots, r) * LinearPart(batch, block, i, link.Side, o);
             LaneVector<V> angular = LaneVector<V>.Load(batch.Angular, o);
             var turned = new LaneVector<V>(
-                LaneVector<V>.Dot(LaneVector<V>.Load(roots, r + w), angular),
-                LaneVector<V>.Dot(LaneVector<V>.Load(roots, r + 4 * w), angular),
-                LaneVector<V>.Dot(LaneVector<V>.Load(roots, r + 7 * w), angular));
+                LaneVector<V>.Dot(LaneVector<V>.Load(roots, r, 1), angular),
+                LaneVector<V>.Dot(LaneVector<V>.Load(roots, r, 4), angular),
+                LaneVector<V>.Dot(LaneVector<V>.Load(roots, r, 7), angular));
             linear.X.Store(batch.Matrix, cell);
             linear.Y.Store(batch.Matrix, cell + step);
             linear.Z.Store(batch.Matrix, cell + 2 * step);
             turned.X.Store(batch.Matrix, cell + 3 * step);
             turned.Y.Store(batch.Matrix, cell + 4 * step);
             turned.Z.Store(batch.Matrix, cell + 5 * step);
-            Lane<V> rounding = Lane<V>.Load(roots, r + 10 * w) * LaneVector<V>.Dot(angular, angular);
+            Lane<V> rounding = Lane<V>.Load(roots, r, 10) * LaneVector<V>.Dot(angular, angular);
             (Lane<V>.Load(batch.Matrix, diagonal) + rounding).Store(batch.Matrix, diagonal);
             Lane<V> response = LaneVector<V>.Dot(linear, linear) + LaneVector<V>.Dot(turned, turned);
             (Lane<V>.Load(batch.Work.HubResponse, row) + response).Store(batch.Work.HubResponse, row);
@@ -249,7 +249,7 @@ internal static class DelassusMatrix<V>
 
         for (; i < block.Rows; i++, o += stride)
         {
-            LaneVector<V>.Transform(batch.Bodies, inverse, LaneVector<V>.Load(batch.Angular, o)).Store(batch.Work.Response, o);
+            LaneVector<V>.Transform(batch.Bodies, inverse, 0, LaneVector<V>.Load(batch.Angular, o)).Store(batch.Work.Response, o);
         }
     }
 
@@ -261,13 +261,13 @@ internal static class DelassusMatrix<V>
         double[] responses = batch.Work.Response;
         int w = Lane<V>.Width;
         LaneVector<V> r = BilateralRows<V>.BuiltLever(batch.Angular, o);
-        Lane<V> xy = Lane<V>.Load(a, inverse + 3 * w), xz = Lane<V>.Load(a, inverse + 4 * w), yz = Lane<V>.Load(a, inverse + 5 * w);
+        Lane<V> xy = Lane<V>.Load(a, inverse, 3), xz = Lane<V>.Load(a, inverse, 4), yz = Lane<V>.Load(a, inverse, 5);
         var x = new LaneVector<V>(Lane<V>.Load(a, inverse), xy, xz);
-        var y = new LaneVector<V>(xy, Lane<V>.Load(a, inverse + w), yz);
-        var z = new LaneVector<V>(xz, yz, Lane<V>.Load(a, inverse + 2 * w));
+        var y = new LaneVector<V>(xy, Lane<V>.Load(a, inverse, 1), yz);
+        var z = new LaneVector<V>(xz, yz, Lane<V>.Load(a, inverse, 2));
         (r.Z * y - r.Y * z).Store(responses, o);
-        (r.X * z - r.Z * x).Store(responses, o + 6 * w);
-        (r.Y * x - r.X * y).Store(responses, o + 12 * w);
+        (r.X * z - r.Z * x).Store(responses, o, 6);
+        (r.Y * x - r.X * y).Store(responses, o, 12);
     }
 
     private static void AddDiagonal(LaneRecords<V> batch, int n, RowBlock block, int side)
@@ -338,8 +338,8 @@ internal static class DelassusMatrix<V>
         int strideI = 3 * blockI.Bodies.Length * w;
         bool isHinge = blockJ.Rows >= HingeRows;
         LaneVector<V> r = BilateralRows<V>.BuiltLever(rows, firstJ);
-        LaneVector<V> turn3 = isHinge ? LaneVector<V>.Load(rows, firstJ + 18 * w) : r;
-        LaneVector<V> turn4 = isHinge ? LaneVector<V>.Load(rows, firstJ + 24 * w) : r;
+        LaneVector<V> turn3 = isHinge ? LaneVector<V>.Load(rows, firstJ, 18) : r;
+        LaneVector<V> turn4 = isHinge ? LaneVector<V>.Load(rows, firstJ, 24) : r;
         for (int i = 0; i < blockI.Rows; i++, firstI += strideI, cell += blockJ.Rows * w)
         {
             LaneVector<V> q = LaneVector<V>.Load(batch.Work.Response, firstI);
@@ -347,8 +347,8 @@ internal static class DelassusMatrix<V>
             int j = 3;
             if (isHinge)
             {
-                (Lane<V>.Load(matrix, cell + 3 * w) + LaneVector<V>.Dot(q, turn3)).Store(matrix, cell + 3 * w);
-                (Lane<V>.Load(matrix, cell + 4 * w) + LaneVector<V>.Dot(q, turn4)).Store(matrix, cell + 4 * w);
+                (Lane<V>.Load(matrix, cell, 3) + LaneVector<V>.Dot(q, turn3)).Store(matrix, cell, 3);
+                (Lane<V>.Load(matrix, cell, 4) + LaneVector<V>.Dot(q, turn4)).Store(matrix, cell, 4);
                 j = HingeRows;
             }
 

@@ -27,8 +27,8 @@ internal static class FreeMotion<V>
         for (int body = 0; body < batch.Shape.MovingBodies; body++)
         {
             int o = LaneRecords<V>.Body(body, 0);
-            LaneVector<V> x = LaneVector<V>.Load(a, o + BodyLanes.X * w);
-            (x + step * LaneVector<V>.Load(a, o + BodyLanes.V * w)).Store(a, o + BodyLanes.EndX * w);
+            LaneVector<V> x = LaneVector<V>.Load(a, o, BodyLanes.X);
+            (x + step * LaneVector<V>.Load(a, o, BodyLanes.V)).Store(a, o, BodyLanes.EndX);
             Rotate(a, o, h, batch.Shape.RotationSplittings[body]);
         }
 
@@ -53,13 +53,13 @@ internal static class FreeMotion<V>
             }
 
             int o = LaneRecords<V>.Body(body, 0);
-            LaneVector<V> x = LaneVector<V>.Load(a, o + BodyLanes.X * w);
-            (x + step * LaneVector<V>.Load(a, o + BodyLanes.V * w)).Store(a, o + BodyLanes.EndX * w);
-            LaneVector<V> rate = LaneVector<V>.Load(a, o + BodyLanes.W * w);
-            LaneQuaternion<V> q = LaneQuaternion<V>.Exponential(half * rate) * LaneQuaternion<V>.Load(a, o + BodyLanes.Q * w);
+            LaneVector<V> x = LaneVector<V>.Load(a, o, BodyLanes.X);
+            (x + step * LaneVector<V>.Load(a, o, BodyLanes.V)).Store(a, o, BodyLanes.EndX);
+            LaneVector<V> rate = LaneVector<V>.Load(a, o, BodyLanes.W);
+            LaneQuaternion<V> q = LaneQuaternion<V>.Exponential(half * rate) * LaneQuaternion<V>.Load(a, o, BodyLanes.Q);
             q = q.NearlyNormalized();
-            q.Store(a, o + BodyLanes.EndQ * w);
-            q.StoreMatrix(a, o + BodyLanes.R * w);
+            q.Store(a, o, BodyLanes.EndQ);
+            q.StoreMatrix(a, o, BodyLanes.R);
         }
     }
 
@@ -71,10 +71,10 @@ internal static class FreeMotion<V>
         for (int body = 0; body < batch.Shape.Bodies.Length; body++)
         {
             int o = LaneRecords<V>.Body(body, 0);
-            LaneVector<V>.Load(a, o + BodyLanes.X * w).Store(a, o + BodyLanes.EndX * w);
-            LaneQuaternion<V> q = LaneQuaternion<V>.Load(a, o + BodyLanes.Q * w);
-            q.Store(a, o + BodyLanes.EndQ * w);
-            q.StoreMatrix(a, o + BodyLanes.R * w);
+            LaneVector<V>.Load(a, o, BodyLanes.X).Store(a, o, BodyLanes.EndX);
+            LaneQuaternion<V> q = LaneQuaternion<V>.Load(a, o, BodyLanes.Q);
+            q.Store(a, o, BodyLanes.EndQ);
+            q.StoreMatrix(a, o, BodyLanes.R);
         }
     }
 
@@ -103,8 +103,8 @@ internal static class FreeMotion<V>
     private static void MeasureMeanRate(double[] a, int o, double h)
     {
         int w = Lane<V>.Width;
-        LaneQuaternion<V> q = LaneQuaternion<V>.Load(a, o + BodyLanes.EndQ * w) * LaneQuaternion<V>.Load(a, o + BodyLanes.Q * w).Conjugate();
-        (Lane<V>.Splat(1 / h) * q.RotationVector()).Store(a, o + BodyLanes.W * w);
+        LaneQuaternion<V> q = LaneQuaternion<V>.Load(a, o, BodyLanes.EndQ) * LaneQuaternion<V>.Load(a, o, BodyLanes.Q).Conjugate();
+        (Lane<V>.Splat(1 / h) * q.RotationVector()).Store(a, o, BodyLanes.W);
     }
 
     /// <summary>
@@ -114,8 +114,8 @@ internal static class FreeMotion<V>
     public static Lane<V> SphericalHalfRate(double[] bodies, int o, RotationSplitting spin)
     {
         int w = Lane<V>.Width;
-        LaneVector<V> momentum = LaneVector<V>.Load(bodies, o + BodyLanes.L * w);
-        Lane<V> inverse = Lane<V>.Load(bodies, o + (BodyLanes.InverseInertia + spin.Spherical) * w);
+        LaneVector<V> momentum = LaneVector<V>.Load(bodies, o, BodyLanes.L);
+        Lane<V> inverse = Lane<V>.Load(bodies, o + spin.Spherical * w, BodyLanes.InverseInertia);
         return Lane<V>.Splat(0.5) * inverse * Lane<V>.Sqrt(LaneVector<V>.Dot(momentum, momentum));
     }
 
@@ -144,15 +144,15 @@ internal static class FreeMotion<V>
     private static void RotateSpherical(double[] a, int o, double half, int axis)
     {
         int w = Lane<V>.Width;
-        Lane<V> inverse = Lane<V>.Splat(half) * Lane<V>.Load(a, o + (BodyLanes.InverseInertia + axis) * w);
-        LaneVector<V> u = inverse * LaneVector<V>.Load(a, o + BodyLanes.L * w);
+        Lane<V> inverse = Lane<V>.Splat(half) * Lane<V>.Load(a, o + axis * w, BodyLanes.InverseInertia);
+        LaneVector<V> u = inverse * LaneVector<V>.Load(a, o, BodyLanes.L);
         Lane<V> square = LaneVector<V>.Dot(u, u);
         Lane<V> c = LaneQuaternion<V>.CosineSeries(square);
         LaneVector<V> s = LaneQuaternion<V>.SineSeries(square) * u;
-        LaneVector<V> v = LaneVector<V>.Load(a, o + BodyLanes.Q * w);
-        Lane<V> scalar = Lane<V>.Load(a, o + (BodyLanes.Q + 3) * w);
-        (c * v + scalar * s + LaneVector<V>.Cross(s, v)).Store(a, o + BodyLanes.EndQ * w);
-        (c * scalar - LaneVector<V>.Dot(s, v)).Store(a, o + (BodyLanes.EndQ + 3) * w);
+        LaneVector<V> v = LaneVector<V>.Load(a, o, BodyLanes.Q);
+        Lane<V> scalar = Lane<V>.Load(a, o, BodyLanes.Q + 3);
+        (c * v + scalar * s + LaneVector<V>.Cross(s, v)).Store(a, o, BodyLanes.EndQ);
+        (c * scalar - LaneVector<V>.Dot(s, v)).Store(a, o, BodyLanes.EndQ + 3);
     }
 
     // L in the body's axes at the start, in the order first, second, sphere.
@@ -160,54 +160,54 @@ internal static class FreeMotion<V>
     private static void MomentumToBody(double[] a, int o, RotationSplitting spin)
     {
         int w = Lane<V>.Width;
-        LaneVector<V> local = LaneQuaternion<V>.Load(a, o + BodyLanes.Q * w).InverseRotate(LaneVector<V>.Load(a, o + BodyLanes.L * w));
-        local.Store(a, o + BodyLanes.BodyMomentum * w);
-        Permuted(a, o + BodyLanes.BodyMomentum * w, spin).Store(a, o + BodyLanes.BodyMomentum * w);
+        LaneVector<V> local = LaneQuaternion<V>.Load(a, o, BodyLanes.Q).InverseRotate(LaneVector<V>.Load(a, o, BodyLanes.L));
+        local.Store(a, o, BodyLanes.BodyMomentum);
+        Permuted(a, o + BodyLanes.BodyMomentum * w, spin).Store(a, o, BodyLanes.BodyMomentum);
     }
 
     [MethodImpl(MethodImplOptions.NoInlining)]
     private static void RotateAboutA(double[] a, int o, double half, RotationSplitting spin)
     {
         int w = Lane<V>.Width;
-        LaneVector<V> local = LaneVector<V>.Load(a, o + BodyLanes.BodyMomentum * w);
+        LaneVector<V> local = LaneVector<V>.Load(a, o, BodyLanes.BodyMomentum);
         Lane<V> angle = Lane<V>.Splat(half) * Excess(a, o, spin.AxisA, spin) * local.X;
         HalfAngle(angle, out Lane<V> s, out Lane<V> c);
         LaneVector<V> v = Permuted(a, o + BodyLanes.EndQ * w, spin);
-        Lane<V> scalar = Lane<V>.Load(a, o + (BodyLanes.EndQ + 3) * w);
+        Lane<V> scalar = Lane<V>.Load(a, o, BodyLanes.EndQ + 3);
         StorePermuted(new LaneVector<V>(c * v.X + s * scalar, c * v.Y + s * v.Z, c * v.Z - s * v.Y), a, o + BodyLanes.EndQ * w, spin);
-        (c * scalar - s * v.X).Store(a, o + (BodyLanes.EndQ + 3) * w);
+        (c * scalar - s * v.X).Store(a, o, BodyLanes.EndQ + 3);
 
         // L is fixed in the world: in the body it turns the other way, by the whole angle.
         Lane<V> sine = (s + s) * c;
         Lane<V> cosine = c * c - s * s;
-        (cosine * local.Y + sine * local.Z).Store(a, o + (BodyLanes.BodyMomentum + 1) * w);
-        (cosine * local.Z - sine * local.Y).Store(a, o + (BodyLanes.BodyMomentum + 2) * w);
+        (cosine * local.Y + sine * local.Z).Store(a, o, BodyLanes.BodyMomentum + 1);
+        (cosine * local.Z - sine * local.Y).Store(a, o, BodyLanes.BodyMomentum + 2);
     }
 
     [MethodImpl(MethodImplOptions.NoInlining)]
     private static void RotateAboutB(double[] a, int o, double half, RotationSplitting spin)
     {
         int w = Lane<V>.Width;
-        LaneVector<V> local = LaneVector<V>.Load(a, o + BodyLanes.BodyMomentum * w);
+        LaneVector<V> local = LaneVector<V>.Load(a, o, BodyLanes.BodyMomentum);
         Lane<V> angle = Lane<V>.Splat(half) * Excess(a, o, spin.AxisB, spin) * local.Y;
         HalfAngle(angle, out Lane<V> s, out Lane<V> c);
         LaneVector<V> v = Permuted(a, o + BodyLanes.EndQ * w, spin);
-        Lane<V> scalar = Lane<V>.Load(a, o + (BodyLanes.EndQ + 3) * w);
+        Lane<V> scalar = Lane<V>.Load(a, o, BodyLanes.EndQ + 3);
         StorePermuted(new LaneVector<V>(c * v.X - s * v.Z, c * v.Y + s * scalar, c * v.Z + s * v.X), a, o + BodyLanes.EndQ * w, spin);
-        (c * scalar - s * v.Y).Store(a, o + (BodyLanes.EndQ + 3) * w);
+        (c * scalar - s * v.Y).Store(a, o, BodyLanes.EndQ + 3);
         Lane<V> sine = (s + s) * c;
         Lane<V> cosine = c * c - s * s;
-        (cosine * local.X - sine * local.Z).Store(a, o + BodyLanes.BodyMomentum * w);
-        (cosine * local.Z + sine * local.X).Store(a, o + (BodyLanes.BodyMomentum + 2) * w);
+        (cosine * local.X - sine * local.Z).Store(a, o, BodyLanes.BodyMomentum);
+        (cosine * local.Z + sine * local.X).Store(a, o, BodyLanes.BodyMomentum + 2);
     }
 
     [MethodImpl(MethodImplOptions.NoInlining)]
     private static void Normalise(double[] a, int o)
     {
         int w = Lane<V>.Width;
-        LaneQuaternion<V> q = LaneQuaternion<V>.Load(a, o + BodyLanes.EndQ * w).NearlyNormalized();
-        q.Store(a, o + BodyLanes.EndQ * w);
-        q.StoreMatrix(a, o + BodyLanes.R * w);
+        LaneQuaternion<V> q = LaneQuaternion<V>.Load(a, o, BodyLanes.EndQ).NearlyNormalized();
+        q.Store(a, o, BodyLanes.EndQ);
+        q.StoreMatrix(a, o, BodyLanes.R);
     }
 
     // 1 / I of an axis less that of the sphere's.
@@ -215,7 +215,7 @@ internal static class FreeMotion<V>
     private static Lane<V> Excess(double[] a, int o, int axis, RotationSplitting spin)
     {
         int w = Lane<V>.Width;
-        return Lane<V>.Load(a, o + (BodyLanes.InverseInertia + axis) * w) - Lane<V>.Load(a, o + (BodyLanes.InverseInertia + spin.Spherical) * w);
+        return Lane<V>.Load(a, o + axis * w, BodyLanes.InverseInertia) - Lane<V>.Load(a, o + spin.Spherical * w, BodyLanes.InverseInertia);
     }
 
     [MethodImpl(MethodImplOptions.AggressiveInlining)]

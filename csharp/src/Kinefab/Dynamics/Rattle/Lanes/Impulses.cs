@@ -73,14 +73,14 @@ internal static class Impulses<V>
         double[] a = batch.Bodies;
         int w = Lane<V>.Width;
         int at = LaneRecords<V>.Body(body, 0);
-        LaneVector<V> v = LaneVector<V>.Load(a, at + BodyLanes.V * w);
-        LaneVector<V> momentum = LaneVector<V>.Load(a, at + BodyLanes.L * w);
-        LaneVector<V> faster = v + Lane<V>.Load(a, at + BodyLanes.InverseMass * w) * force;
+        LaneVector<V> v = LaneVector<V>.Load(a, at, BodyLanes.V);
+        LaneVector<V> momentum = LaneVector<V>.Load(a, at, BodyLanes.L);
+        LaneVector<V> faster = v + Lane<V>.Load(a, at, BodyLanes.InverseMass) * force;
         LaneVector<V> turned = momentum + torque;
 
         // The only lane is active, or nothing is applied at all.
-        (w == 1 ? faster : LaneVector<V>.Select(active, faster, v)).Store(a, at + BodyLanes.V * w);
-        (w == 1 ? turned : LaneVector<V>.Select(active, turned, momentum)).Store(a, at + BodyLanes.L * w);
+        (w == 1 ? faster : LaneVector<V>.Select(active, faster, v)).Store(a, at, BodyLanes.V);
+        (w == 1 ? turned : LaneVector<V>.Select(active, turned, momentum)).Store(a, at, BodyLanes.L);
     }
 
     // The same of any rows.
@@ -153,7 +153,7 @@ internal static class Impulses<V>
                 // The turning part is J_w I^-1 L for a moving body, its response being J_w I^-1; J_w w for a kinematic one.
                 bool isMoving = body < batch.Shape.MovingBodies;
                 int at = LaneRecords<V>.Body(body, 0);
-                LaneVector<V> v = LaneVector<V>.Load(a, at + BodyLanes.V * w);
+                LaneVector<V> v = LaneVector<V>.Load(a, at, BodyLanes.V);
                 LaneVector<V> turn = LaneVector<V>.Load(a, at + (isMoving ? BodyLanes.L : BodyLanes.W) * w);
                 double[] rows = isMoving ? batch.Work.Response : batch.Angular;
                 int o = batch.Row(n, 0, side);
@@ -203,14 +203,14 @@ internal static class Impulses<V>
             }
 
             int at = LaneRecords<V>.Body(body, 0);
-            LaneVector<V> v = LaneVector<V>.Load(batch.Bodies, at + BodyLanes.V * w);
+            LaneVector<V> v = LaneVector<V>.Load(batch.Bodies, at, BodyLanes.V);
             LaneVector<V> turn = LaneVector<V>.Load(batch.Bodies, at + (isMoving ? BodyLanes.L : BodyLanes.W) * w);
             double[] rows = isMoving ? batch.Work.Response : batch.Angular;
             int o = batch.Row(n, 0, side);
             var speed = new LaneVector<V>(
                 LaneVector<V>.Dot(LaneVector<V>.Load(rows, o), turn),
-                LaneVector<V>.Dot(LaneVector<V>.Load(rows, o + 6 * w), turn),
-                LaneVector<V>.Dot(LaneVector<V>.Load(rows, o + 12 * w), turn));
+                LaneVector<V>.Dot(LaneVector<V>.Load(rows, o, 6), turn),
+                LaneVector<V>.Dot(LaneVector<V>.Load(rows, o, 12), turn));
             sum -= side == 0 ? speed + v : speed - v;
             for (int i = 3; i < block.Rows; i++)
             {

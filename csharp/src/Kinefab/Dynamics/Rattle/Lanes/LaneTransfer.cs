@@ -121,7 +121,7 @@ internal static class LaneTransfer<V>
         for (int body = 0; body < batch.Shape.MovingBodies; body++)
         {
             int o = LaneRecords<V>.Body(body, 0);
-            LaneVector<V>.Transform(a, o + BodyLanes.WorldInverse * w, LaneVector<V>.Load(a, o + BodyLanes.L * w)).Store(a, o + BodyLanes.W * w);
+            LaneVector<V>.Transform(a, o, BodyLanes.WorldInverse, LaneVector<V>.Load(a, o, BodyLanes.L)).Store(a, o, BodyLanes.W);
         }
     }
 
@@ -183,8 +183,8 @@ internal static class LaneTransfer<V>
         }
 
         moved.Store(batch.Work.Moved, 0);
-        LaneVector<V>.Gather(MemoryMarshal.Cast<Vector3d, double>(bodies.LinearVelocities), members, 3, 0).Store(a, o + BodyLanes.V * w);
-        LaneVector<V>.Gather(MemoryMarshal.Cast<Vector3d, double>(bodies.AngularVelocities), members, 3, 0).Store(a, o + BodyLanes.W * w);
+        LaneVector<V>.Gather(MemoryMarshal.Cast<Vector3d, double>(bodies.LinearVelocities), members, 3, 0).Store(a, o, BodyLanes.V);
+        LaneVector<V>.Gather(MemoryMarshal.Cast<Vector3d, double>(bodies.AngularVelocities), members, 3, 0).Store(a, o, BodyLanes.W);
     }
 
     [MethodImpl(MethodImplOptions.NoInlining)]
@@ -198,12 +198,12 @@ internal static class LaneTransfer<V>
         Lane<V> zero = Lane<V>.Splat(0);
         Lane<V> one = Lane<V>.Splat(1);
         Lane<V> time = Lane<V>.Splat(dt);
-        Lane<V>.Max(zero, one - Lane<V>.Gather(bodies.LinearDampings, members, 1, 0) * time).Store(a, o + BodyLanes.DampingFactors * w);
-        Lane<V>.Max(zero, one - Lane<V>.Gather(bodies.AngularDampings, members, 1, 0) * time).Store(a, o + (BodyLanes.DampingFactors + 1) * w);
-        Lane<V>.Gather(bodies.MaxAngularSpeeds, members, 1, 0).Store(a, o + BodyLanes.MaxAngularSpeed * w);
+        Lane<V>.Max(zero, one - Lane<V>.Gather(bodies.LinearDampings, members, 1, 0) * time).Store(a, o, BodyLanes.DampingFactors);
+        Lane<V>.Max(zero, one - Lane<V>.Gather(bodies.AngularDampings, members, 1, 0) * time).Store(a, o, BodyLanes.DampingFactors + 1);
+        Lane<V>.Gather(bodies.MaxAngularSpeeds, members, 1, 0).Store(a, o, BodyLanes.MaxAngularSpeed);
         LaneVector<V> force = LaneVector<V>.Gather(MemoryMarshal.Cast<Vector3d, double>(bodies.Forces), members, 3, 0);
-        LaneVector<V> acceleration = Lane<V>.Load(a, o + BodyLanes.InverseMass * w) * force;
-        acceleration.Store(a, o + BodyLanes.Acceleration * w);
+        LaneVector<V> acceleration = Lane<V>.Load(a, o, BodyLanes.InverseMass) * force;
+        acceleration.Store(a, o, BodyLanes.Acceleration);
         for (int lane = 0; lane < w; lane++)
         {
             if (bodies.UseGravity[members[lane]])
@@ -213,7 +213,7 @@ internal static class LaneTransfer<V>
             }
         }
 
-        LaneVector<V>.Gather(MemoryMarshal.Cast<Vector3d, double>(bodies.Torques), members, 3, 0).Store(a, o + BodyLanes.Torque * w);
+        LaneVector<V>.Gather(MemoryMarshal.Cast<Vector3d, double>(bodies.Torques), members, 3, 0).Store(a, o, BodyLanes.Torque);
     }
 
     // A frozen rotation takes no torque: in the angular momentum it would spill into the axes that do turn.
@@ -254,13 +254,13 @@ internal static class LaneTransfer<V>
     {
         double[] a = batch.Bodies;
         int w = Lane<V>.Width;
-        (Lane<V>.Load(a, o + BodyLanes.DampingFactors * w) * LaneVector<V>.Load(a, o + BodyLanes.V * w)).Store(a, o + BodyLanes.V * w);
-        LaneVector<V> rate = Lane<V>.Load(a, o + (BodyLanes.DampingFactors + 1) * w) * LaneVector<V>.Load(a, o + BodyLanes.W * w);
+        (Lane<V>.Load(a, o, BodyLanes.DampingFactors) * LaneVector<V>.Load(a, o, BodyLanes.V)).Store(a, o, BodyLanes.V);
+        LaneVector<V> rate = Lane<V>.Load(a, o, BodyLanes.DampingFactors + 1) * LaneVector<V>.Load(a, o, BodyLanes.W);
         Lane<V> square = LaneVector<V>.Dot(rate, rate);
-        Lane<V> most = Lane<V>.Load(a, o + BodyLanes.MaxAngularSpeed * w);
+        Lane<V> most = Lane<V>.Load(a, o, BodyLanes.MaxAngularSpeed);
         Lane<V> speed = Lane<V>.Sqrt(square + Lane<V>.Splat(LeastSquare));
         Lane<V> share = Lane<V>.Min(most / speed, Lane<V>.Splat(1));
-        (share * rate).Store(a, o + BodyLanes.W * w);
+        (share * rate).Store(a, o, BodyLanes.W);
         Lane<V>.Max(Lane<V>.Load(batch.Work.Fastest, 0), share * share * square).Store(batch.Work.Fastest, 0);
     }
 
@@ -269,9 +269,9 @@ internal static class LaneTransfer<V>
     private static void TakeMomentum(double[] a, int o)
     {
         int w = Lane<V>.Width;
-        LaneQuaternion<V> q = LaneQuaternion<V>.Load(a, o + BodyLanes.Q * w);
-        LaneVector<V> inBody = q.InverseRotate(LaneVector<V>.Load(a, o + BodyLanes.W * w));
-        q.Rotate(LaneVector<V>.Scale(LaneVector<V>.Load(a, o + BodyLanes.Inertia * w), inBody)).Store(a, o + BodyLanes.L * w);
+        LaneQuaternion<V> q = LaneQuaternion<V>.Load(a, o, BodyLanes.Q);
+        LaneVector<V> inBody = q.InverseRotate(LaneVector<V>.Load(a, o, BodyLanes.W));
+        q.Rotate(LaneVector<V>.Scale(LaneVector<V>.Load(a, o, BodyLanes.Inertia), inBody)).Store(a, o, BodyLanes.L);
     }
 
     private static double Least(Vector3d inverse, double most)

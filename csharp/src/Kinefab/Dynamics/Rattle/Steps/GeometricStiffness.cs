@@ -49,9 +49,9 @@ internal static class GeometricStiffness<V>
 
                 LaneVector<V> lever = LaneVector<V>.Load(batch.Joints, LaneBatch<V>.Joint(n, LaneBatch<V>.WorldFrame(side)));
                 int inverse = LaneBatch<V>.Body(body, BodyLanes.WorldInverse);
-                Lane<V> trace = Lane<V>.Load(a, inverse) + Lane<V>.Load(a, inverse + w) + Lane<V>.Load(a, inverse + 2 * w);
+                Lane<V> trace = Lane<V>.Load(a, inverse) + Lane<V>.Load(a, inverse, 1) + Lane<V>.Load(a, inverse, 2);
                 Lane<V> square = LaneVector<V>.Dot(lever, lever);
-                Lane<V> light = half * (trace * square - LaneVector<V>.Dot(lever, LaneVector<V>.Transform(a, inverse, lever)));
+                Lane<V> light = half * (trace * square - LaneVector<V>.Dot(lever, LaneVector<V>.Transform(a, inverse, 0, lever)));
                 Lane<V> heavy = Lane<V>.Splat(1) / Lane<V>.Load(a, LaneBatch<V>.Body(body, BodyLanes.InverseMass));
                 Lane<V> pull = LaneVector<V>.Dot(impulse, lever) / (square + least);
                 pull = side == 0 ? pull : zero - pull;

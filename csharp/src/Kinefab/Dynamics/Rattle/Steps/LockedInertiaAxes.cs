@@ -23,12 +23,12 @@ internal static class LockedInertiaAxes<V>
     private static void ClearMomentum(double[] a, int o)
     {
         int w = Lane<V>.Width;
-        LaneQuaternion<V> q = LaneQuaternion<V>.Load(a, o + BodyLanes.Q * w);
-        LaneVector<V> inBody = q.InverseRotate(LaneVector<V>.Load(a, o + BodyLanes.L * w));
+        LaneQuaternion<V> q = LaneQuaternion<V>.Load(a, o, BodyLanes.Q);
+        LaneVector<V> inBody = q.InverseRotate(LaneVector<V>.Load(a, o, BodyLanes.L));
 
         // 1 for an axis that turns, 0 for one that does not.
         LaneVector<V> turns = LaneVector<V>.Scale(
-            LaneVector<V>.Load(a, o + BodyLanes.Inertia * w), LaneVector<V>.Load(a, o + BodyLanes.InverseInertia * w));
-        q.Rotate(LaneVector<V>.Scale(turns, inBody)).Store(a, o + BodyLanes.L * w);
+            LaneVector<V>.Load(a, o, BodyLanes.Inertia), LaneVector<V>.Load(a, o, BodyLanes.InverseInertia));
+        q.Rotate(LaneVector<V>.Scale(turns, inBody)).Store(a, o, BodyLanes.L);
     }
 }

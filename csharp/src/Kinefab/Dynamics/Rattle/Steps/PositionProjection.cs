@@ -231,7 +231,7 @@ internal sealed class PositionProjection
             }
 
             LaneTransfer<ScalarLane>.Write(a, o + BodyLanes.EndQ, q);
-            LaneQuaternion<ScalarLane>.Load(a, o + BodyLanes.EndQ).StoreMatrix(a, o + BodyLanes.R);
+            LaneQuaternion<ScalarLane>.Load(a, o, BodyLanes.EndQ).StoreMatrix(a, o, BodyLanes.R);
         }
 
         return share > 0;

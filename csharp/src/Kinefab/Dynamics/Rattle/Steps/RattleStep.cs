@@ -143,8 +143,8 @@ internal static class RattleStep<V>
         for (int body = 0; body < batch.Shape.Bodies.Length; body++)
         {
             int o = LaneBatch<V>.Body(body, 0);
-            LaneVector<V>.Load(a, o + BodyLanes.EndX * w).Store(a, o + BodyLanes.X * w);
-            LaneQuaternion<V>.Load(a, o + BodyLanes.EndQ * w).Store(a, o + BodyLanes.Q * w);
+            LaneVector<V>.Load(a, o, BodyLanes.EndX).Store(a, o, BodyLanes.X);
+            LaneQuaternion<V>.Load(a, o, BodyLanes.EndQ).Store(a, o, BodyLanes.Q);
         }
     }
 
@@ -169,10 +169,10 @@ internal static class RattleStep<V>
         for (int body = 0; body < batch.Shape.MovingBodies; body++)
         {
             int o = LaneBatch<V>.Body(body, 0);
-            (LaneVector<V>.Load(a, o + BodyLanes.V * w) + time * LaneVector<V>.Load(a, o + BodyLanes.Acceleration * w))
-                .Store(a, o + BodyLanes.V * w);
-            (LaneVector<V>.Load(a, o + BodyLanes.L * w) + time * LaneVector<V>.Load(a, o + BodyLanes.Torque * w))
-                .Store(a, o + BodyLanes.L * w);
+            (LaneVector<V>.Load(a, o, BodyLanes.V) + time * LaneVector<V>.Load(a, o, BodyLanes.Acceleration))
+                .Store(a, o, BodyLanes.V);
+            (LaneVector<V>.Load(a, o, BodyLanes.L) + time * LaneVector<V>.Load(a, o, BodyLanes.Torque))
+                .Store(a, o, BodyLanes.L);
         }
     }
 

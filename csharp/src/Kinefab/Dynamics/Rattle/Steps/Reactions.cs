@@ -34,10 +34,14 @@ internal static class Reactions<V>
                     AddLimits(batch, batch.ActiveSet, n, 1 / dt, ref force, ref torque);
                 }
 
-                // The anchors of a slide stand apart: it is the one in actor 1 that counts.
+                // The anchors of a slide stand apart: it is the one in actor 1 that counts. Those of other joints meet.
                 JointModel joint = mechanism.Joints[index];
-                Vector3d gap = mechanism.Bodies.PoseOf(joint.Body1).Point(joint.Frame1.Position) - mechanism.Bodies.PoseOf(joint.Body0).Point(joint.Frame0.Position);
-                torque -= Vector3d.Cross(gap, force);
+                if (block.LinearMask != 7)
+                {
+                    Vector3d gap = mechanism.Bodies.PoseOf(joint.Body1).Point(joint.Frame1.Position) - mechanism.Bodies.PoseOf(joint.Body0).Point(joint.Frame0.Position);
+                    torque -= Vector3d.Cross(gap, force);
+                }
+
                 mechanism.Reactions[index] = new JointReaction { Force = force, Torque = torque };
                 if (force.LengthSquared > joint.BreakForce * joint.BreakForce || torque.LengthSquared > joint.BreakTorque * joint.BreakTorque)
                 {

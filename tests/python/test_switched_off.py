@@ -159,6 +159,17 @@ def test_what_is_driven_is_not_held_by_them(tmp_path):
     assert kinefab.motion(door()).mobility == 2
 
 
+@pytest.mark.parametrize(("kind", "code"), [("free", "JOINT_REMOVES_NOTHING"), ("planar", "JOINT_WITHOUT_BODY")])
+def test_what_would_be_no_component_is_none(tmp_path, kind, code):
+    scene = kinefab.Scene()
+    part = scene.add_part("A", box(), translation=(0.5, 0, 0))
+    scene.add_joint(kind, None, part, point=(0.2, 0, 0), axis=(0, 0, 1), name="Spare")
+    scene.joints[0] = replace(scene.joints[0], enabled=False)
+    scene.nodes[0] = replace(scene.nodes[0], suppressed=kind == "planar")
+    content, result = exported(scene, tmp_path / "a.kinefab")
+    assert not joints(content) and dropped(result) == [("joint Spare", code)]
+
+
 def test_inspect_says_that_it_is_switched_off(tmp_path):
     content, _ = exported(door(), tmp_path / "door.kinefab")
     assert [joint["enabled"] for joint in describe(content)["joints"]] == [True, True, False, False]

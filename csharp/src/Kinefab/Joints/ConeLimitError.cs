@@ -5,7 +5,7 @@ namespace Kinefab.Joints;
 
 /// <summary>
 /// Distance of a swing from an elliptic cone. The cone is the ellipse (y/Y)^2 + (z/Z)^2 = 1 in the plane of the swing
-/// angles y, z; the error is the sine of the angle between the X axis and the nearest line of the cone.
+/// angles y, z; the error is the sine of the angle between the X axis and the nearest line of the cone; where it is exact, the angle.
 /// Source: CmConeLimitHelper.h, ConeLimitHelperTanLess and computeAxisAndError.
 /// </summary>
 internal static class ConeLimitError
@@ -56,18 +56,29 @@ internal static class ConeLimitError
     {
         const int most = 20;
         const double enough = 1e-14;
+        const double widest = 0.3;
         double at = Trigonometry.Atan2(pz / limit.Z, py / limit.Y);
         double before = at - 1e-3 * Math.Min(limit.Y, limit.Z) / Math.Max(limit.Y, limit.Z);
-        double last = Along(limit, before, twistAxis, out _, out _);
+        double last = limit.Response.IsSoft ? Along(limit, before, twistAxis, out _, out _) : 0;
         double slope = Along(limit, at, twistAxis, out Vector3d line, out Vector3d along);
+        Vector3d firstLine = line;
+        Vector3d first = along;
         for (int i = 0; i < most && limit.Response.IsSoft && Math.Abs(slope) > enough * along.Length && slope != last; i++)
         {
-            (before, at, last) = (at, at - slope * (at - before) / (slope - last), slope);
+            double step = Math.Max(-widest, Math.Min(widest, slope * (at - before) / (slope - last)));
+            (before, at, last) = (at, at - step, slope);
             slope = Along(limit, at, twistAxis, out line, out along);
         }
 
+        if (Vector3d.Dot(line, twistAxis) < Vector3d.Dot(firstLine, twistAxis))
+        {
+            // Far beyond the cone the search may end at the point that is farthest.
+            line = firstLine;
+            along = first;
+        }
+
         axis = along * (1 / along.Length);
-        return Trigonometry.Asin(Math.Max(-1, Math.Min(1, Vector3d.Dot(Vector3d.Cross(line, axis), twistAxis))));
+        return Trigonometry.Atan2(Vector3d.Dot(Vector3d.Cross(line, axis), twistAxis), Vector3d.Dot(line, twistAxis));
     }
 
     // At the ellipse's point of a parameter: the cone's line, how it moves along it, outwards to the left, and how fast that leads towards a direction.

@@ -47,27 +47,27 @@ def with_switched_off(mapped: UnityScene, scene: Scene, groups: RigidGroups, rep
 def _component(
     joint: ModelJoint, scene: Scene, groups: RigidGroups, carrier: Callable[[int], int | None], report: Report
 ) -> tuple[int, int | None, Joint] | None:
-    """Owner, connected node and component; None, and the report says so, where its two sides are no two bodies."""
+    """Owner, connected node and component; None, and the report says why, where there is none."""
     feature, made = f"joint {joint.id}", Report()
-    mapped = None
-    if groups.without_body(joint) is None and not groups.together(joint.a, joint.b):
-
-        def moving(node: int) -> int:
-            found = carrier(node)
-            assert found is not None, "what is not on the ground has a Rigidbody"
-            return found
-
-        mapped = map_joint(with_passive_drives(joint, Report()), scene, groups, moving, made, base=carrier)
-    if mapped is None:
+    if groups.without_body(joint) is None and groups.together(joint.a, joint.b):
         told = {"joint": joint.id, "target": "one rigid body"}
         report.dropped(feature, "JOINT_DISABLED_DROPPED", joint.where, **told)
+        return None
+
+    def moving(node: int) -> int:
+        found = carrier(node)
+        assert found is not None, "what is not on the ground has a Rigidbody"
+        return found
+
+    mapped = map_joint(with_passive_drives(joint, Report()), scene, groups, moving, made, base=carrier)
+    lost = [outcome for outcome in made.outcomes if outcome.outcome is not Outcome.KEPT]
+    report.outcomes.extend(lost)
+    report.diagnostics.extend(made.diagnostics)
+    if mapped is None:
         return None
     component = replace(mapped.component, enabled=False)
     if isinstance(component, AnchoredJoint):
         component = replace(component, **stated_of(joint))
-    lost = [outcome for outcome in made.outcomes if outcome.outcome is not Outcome.KEPT]
-    report.outcomes.extend(lost)
-    report.diagnostics.extend(made.diagnostics)
     if not lost:
         report.kept(feature, joint.where, "JOINT_DISABLED", joint=joint.id)
     return mapped.owner, mapped.connected, component

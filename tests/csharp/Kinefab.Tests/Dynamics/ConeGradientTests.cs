@@ -33,6 +33,34 @@ internal sealed class ConeGradientTests
         }
     }
 
+    /// <summary>As far as a right angle beyond a soft cone its error is the angle to its nearest line, here of as many as are looked through.</summary>
+    [Test]
+    public void Find_FarBeyondASoftCone_IsTheAngleToTheNearestLine()
+    {
+        const int lines = 4000;
+        var random = new Random(3);
+        for (int trial = 0; trial < 300; trial++)
+        {
+            var limit = new ConeLimit { Y = Math.Pow(10, -2 * random.NextDouble()), Z = Math.Pow(10, -2 * random.NextDouble()), Response = new LimitResponse { Stiffness = 1 } };
+            double toward = 2 * Math.PI * random.NextDouble();
+            Quaterniond swing = Quaterniond.AxisAngle(new Vector3d(0, Math.Cos(toward), Math.Sin(toward)), 1 + 0.8 * random.NextDouble());
+            if (!ConeLimitError.Find(limit, 0, swing, true, out _, out double error))
+            {
+                continue;
+            }
+
+            double nearest = Math.PI;
+            for (int i = 0; i < lines; i++)
+            {
+                double at = 2 * Math.PI * i / lines;
+                Vector3d line = Swing(limit.Y * Math.Cos(at), limit.Z * Math.Sin(at)) * Vector3d.UnitX;
+                nearest = Math.Min(nearest, Math.Acos(Math.Max(-1, Math.Min(1, Vector3d.Dot(line, swing * Vector3d.UnitX)))));
+            }
+
+            Assert.That(-error, Is.EqualTo(nearest).Within(3e-3), $"trial {trial}: cone {limit.Y} x {limit.Z}");
+        }
+    }
+
     private static double Rate(in ConeLimit limit, Quaterniond swing, Vector3d about, double h) =>
         (Error(limit, Without(Quaterniond.AxisAngle(about, h) * swing), out _) - Error(limit, Without(Quaterniond.AxisAngle(about, -h) * swing), out _)) / (2 * h);
 

@@ -18,6 +18,8 @@ public sealed class PhysicsImportTests
     private static readonly string Arm = Path.Combine(Samples, "Arm", "Arm.kinefab");
     private static readonly string Gripper = Path.Combine(Samples, "Gripper", "Gripper.kinefab");
 
+    private static readonly string[] LostRanges = ["JOINT_LIMIT_BEYOND_TURN", "JOINT_LIMIT_ASYMMETRIC"];
+
     [Test]
     public void Joints_OfAnArticulation_AreOneForEachLinkBelowTheRoot()
     {
@@ -33,6 +35,28 @@ public sealed class PhysicsImportTests
             Assert.That((joint.lowAngularXLimit.limit, joint.highAngularXLimit.limit, joint.angularXDrive.positionSpring), Is.EqualTo((link.xDrive.lowerLimit, link.xDrive.upperLimit, link.xDrive.stiffness)), joint.name);
             Assert.That((joint.angularXMotion, joint.angularYMotion, joint.xMotion), Is.EqualTo((Unity.ConfigurableJointMotion.Limited, Unity.ConfigurableJointMotion.Locked, Unity.ConfigurableJointMotion.Locked)));
         }
+    }
+
+    // What a link holds and no ConfigurableJoint does: told by the exporter's own codes, and free.
+    [Test]
+    public void Joints_OfLinksWithWiderRanges_SayWhatIsLost()
+    {
+        using var scene = new EditedScene("../csharp/unity/com.kinefab/Samples~/Arm/Arm.kinefab");
+        JsonObject[] links = [.. scene.Objects.SelectMany(o => o!["components"]?.AsArray() ?? []).Select(c => c!.AsObject()).Where(c => (string?)c["jointType"] == "Revolute")];
+        links[1]["xDrive"] = new JsonObject { ["lowerLimit"] = -11, ["upperLimit"] = 225 };
+        links[2]["jointType"] = "Spherical";
+        links[2]["swingYLock"] = "Limited";
+        links[2]["swingZLock"] = "Limited";
+        links[2]["yDrive"] = new JsonObject { ["lowerLimit"] = -20, ["upperLimit"] = 50 };
+        links[2]["zDrive"] = new JsonObject { ["lowerLimit"] = -30, ["upperLimit"] = 30 };
+        scene.Save();
+        ImportedAsset joints = ImportedAsset.Of(scene.Scene, new KinefabSettings { physics = KinefabPhysics.Joints });
+        Unity.ConfigurableJoint[] made = All<Unity.ConfigurableJoint>(joints);
+        Assert.That(made[1].angularXMotion, Is.EqualTo(Unity.ConfigurableJointMotion.Free));
+        Assert.That((made[2].angularYLimit.limit, made[2].angularZLimit.limit), Is.EqualTo((50f, 30f)));
+        Assert.That(joints.Codes.Where(c => c.StartsWith("JOINT_LIMIT", StringComparison.Ordinal)), Is.EqualTo(LostRanges));
+        Assert.That(joints.Context.Warnings, Has.Some.Contains("may turn from -11 to 225 degrees"));
+        Assert.That(ImportedAsset.Of(scene.Scene).Codes, Has.None.StartsWith("JOINT_LIMIT"));
     }
 
     // The mechanism is the same whatever physics has of it, and its drives find the joint that stands for a link.

@@ -22,7 +22,9 @@ internal static class StepThreads
     private const int Apart = 16;
 
     private static readonly object Gate = new();
-    private static readonly ManualResetEventSlim AllDone = new();
+
+    // Not a ManualResetEventSlim, which allocates when it first has to wait for long.
+    private static readonly SemaphoreSlim AllDone = new(0);
     private static SemaphoreSlim[] _wake = Array.Empty<SemaphoreSlim>();
 
     // Of each thread, the caller first, the part of its share that is next.
@@ -62,7 +64,6 @@ internal static class StepThreads
             }
 
             _helping = helpers;
-            AllDone.Reset();
             for (int helper = 0; helper < helpers; helper++)
             {
                 _wake[helper].Release();
@@ -111,7 +112,7 @@ internal static class StepThreads
             DoParts(_work!, thread);
             if (Interlocked.Decrement(ref _helping) == 0)
             {
-                AllDone.Set();
+                AllDone.Release();
             }
         }
     }

@@ -18,7 +18,7 @@ namespace KinefabUnity
         [SerializeField]
         private KinefabFinding[] findings = new KinefabFinding[0];
 
-        /// <summary>What was found when it was made: of the file, and what it lost on its way out of CAD.</summary>
+        /// <summary>What was found when it was made: of the file, and what it lost on its way out of its source.</summary>
         public IReadOnlyList<KinefabFinding> Findings => findings;
 
         /// <summary>Sets the project to what the mechanism was made for: gravity, time step, solver. A prefab cannot.</summary>

@@ -234,7 +234,7 @@ namespace KinefabUnity
                     else if (settings.physics == KinefabPhysics.Joints && !scene.IsRootLink(i))
                     {
                         // What keeps a link on the one above it, as a joint.
-                        Add(scene.Joint(new Doc.JointCoordinate { GameObject = i, Component = c }), i, c, joints);
+                        Add(LinkAsJoint.Of(scene, i, c, findings), i, c, joints);
                     }
                 }
 

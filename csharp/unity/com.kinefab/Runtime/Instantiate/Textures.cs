@@ -119,13 +119,13 @@ namespace KinefabUnity
             Texture2D size = rough != null ? rough : occluded;
             var packed = new Texture2D(size.width, size.height, TextureFormat.RGBA32, mipChain: true, linear: true);
             Color32[] pixels = size.GetPixels32();
-            Color32[] occlusion = occluded == null || ReferenceEquals(size, occluded) ? pixels : Resized(occluded, size.width, size.height);
+            byte[] occlusion = occluded == null ? null : Red(occluded, size.width, size.height);
             for (int i = 0; i < pixels.Length; i++)
             {
                 Color32 pixel = pixels[i];
                 pixels[i] = new Color32(
                     rough == null ? byte.MaxValue : (byte)Math.Round(from.Metallic * pixel.b),
-                    occluded == null ? byte.MaxValue : occlusion[i].r,
+                    occlusion == null ? byte.MaxValue : occlusion[i],
                     0,
                     rough == null ? byte.MaxValue : (byte)Math.Round(byte.MaxValue - (1 - from.Smoothness) * pixel.g));
             }
@@ -135,20 +135,27 @@ namespace KinefabUnity
             return packed;
         }
 
-        private static Color32[] Resized(Texture2D from, int width, int height)
+        // The red of an image in another size. Unity's rows begin at the bottom.
+        private static byte[] Red(Texture2D from, int width, int height)
         {
-            if (from.width == width && from.height == height)
+            Color32[] pixels = from.GetPixels32();
+            var red = new byte[pixels.Length];
+            for (int i = 0; i < red.Length; i++)
             {
-                return from.GetPixels32();
+                red[i] = pixels[(from.height - 1 - i / from.width) * from.width + i % from.width].r;
             }
 
-            var pixels = new Color32[width * height];
-            for (int i = 0; i < pixels.Length; i++)
+            byte[] resized = Resampling.Resized(red, from.width, from.height, width, height);
+            for (int row = 0; row < height / 2; row++)
             {
-                pixels[i] = from.GetPixelBilinear((i % width + 0.5f) / width, (i / width + 0.5f) / height);
+                for (int x = 0; x < width; x++)
+                {
+                    int top = row * width + x, bottom = (height - 1 - row) * width + x;
+                    (resized[top], resized[bottom]) = (resized[bottom], resized[top]);
+                }
             }
 
-            return pixels;
+            return resized;
         }
 
         // Shaders take a normal's x from red times alpha, so that they can read both of the forms that Unity packs normals in.

@@ -3,7 +3,7 @@ using UnityEngine;
 
 namespace KinefabUnity
 {
-    /// <summary>One freedom of a mechanism, as a slider shows it: in the CAD program's name, sense and zero; degrees or metres.</summary>
+    /// <summary>One freedom of a mechanism, as a slider shows it: in the source's name, sense and zero; degrees or metres.</summary>
     [Serializable]
     public sealed class KinefabFreedom
     {
@@ -31,7 +31,7 @@ namespace KinefabUnity
             this.island = island;
         }
 
-        /// <summary>What the CAD program calls the joint, Shaft; else the id of the object that carries it. <c>Drive</c> takes it.</summary>
+        /// <summary>What the source calls the joint, Shaft; else the id of the object that carries it. <c>Drive</c> takes it.</summary>
         public string Name => name;
 
         /// <summary>Lever/Crank:1.angle: no other freedom answers to it.</summary>

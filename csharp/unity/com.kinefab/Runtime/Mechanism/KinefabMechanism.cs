@@ -8,7 +8,7 @@ namespace KinefabUnity
 {
     /// <summary>
     /// Moves the parts of an imported scene as their joints let them, loops and couplings closed to rounding: by sliders in the
-    /// inspector, by the mouse (<see cref="KinefabDragger"/>) and by scripts. Values are the CAD program's, degrees and metres.
+    /// inspector, by the mouse (<see cref="KinefabDragger"/>) and by scripts. Values are the source's, degrees and metres.
     /// </summary>
     /// <example><code>
     /// var mechanism = GetComponent&lt;KinefabMechanism&gt;();
@@ -88,30 +88,30 @@ namespace KinefabUnity
             }
         }
 
-        /// <summary>A coordinate as the CAD program shows it, degrees (over any number of turns) or metres.</summary>
+        /// <summary>A coordinate as the source shows it, degrees (over any number of turns) or metres.</summary>
         /// <param name="coordinate">Name of a freedom or of any other joint: Shaft, Slide, Lever/Crank:1.angle.</param>
         /// <exception cref="ArgumentException">None answers to the name, or several do: the message says which there are.</exception>
         public double Value(string coordinate) => IsReady() ? _motion.Value(_motion.Mechanism.CoordinateNamed(coordinate)) : 0;
 
-        /// <summary>A freedom as the CAD program shows it.</summary>
+        /// <summary>A freedom as the source shows it.</summary>
         /// <param name="freedom">Index into <see cref="Freedoms"/>.</param>
         public double Value(int freedom) => IsReady() ? _motion.Value(freedoms[freedom].Coordinate) : 0;
 
         /// <summary>Moves a coordinate to a value and everything else with it, as far as limits and dead points let it.</summary>
         /// <param name="coordinate">Name of a freedom or of any other joint: Shaft, Slide, Lever/Crank:1.angle.</param>
-        /// <param name="value">As the CAD program shows it, degrees or metres.</param>
+        /// <param name="value">As the source shows it, degrees or metres.</param>
         /// <exception cref="ArgumentException">None answers to the name, or several do (the message says which there are), or the value is no finite number.</exception>
         public KinefabResult Drive(string coordinate, double value) =>
             IsReady() ? Moved(_motion.Mechanism.CoordinateNamed(coordinate), value) : Nothing();
 
         /// <summary>Moves a freedom to a value and everything else with it, as far as limits and dead points let it.</summary>
         /// <param name="freedom">Index into <see cref="Freedoms"/>.</param>
-        /// <param name="value">As the CAD program shows it, degrees or metres.</param>
+        /// <param name="value">As the source shows it, degrees or metres.</param>
         /// <exception cref="ArgumentException">The value is no finite number.</exception>
         public KinefabResult Drive(int freedom, double value) => IsReady() ? Moved(freedoms[freedom].Coordinate, value) : Nothing();
 
         /// <summary>Moves all freedoms to values together.</summary>
-        /// <param name="shown">One for each of <see cref="Freedoms"/>, as the CAD program shows it.</param>
+        /// <param name="shown">One for each of <see cref="Freedoms"/>, as the source shows it.</param>
         /// <exception cref="ArgumentException">There are more or fewer freedoms, or a value is no finite number.</exception>
         public KinefabResult Set(ReadOnlySpan<double> shown) => IsReady() ? Told(_motion.Set(shown), null) : Nothing();
 

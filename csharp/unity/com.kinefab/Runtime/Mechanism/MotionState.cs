@@ -40,10 +40,10 @@ namespace KinefabUnity
         /// <summary>Grows with each move.</summary>
         public int Moves { get; private set; }
 
-        /// <summary>As the CAD program shows it.</summary>
+        /// <summary>As the source shows it.</summary>
         public double Value(int coordinate) => Mechanism.Coordinates[coordinate].ToCad(State.Coordinate(coordinate));
 
-        /// <summary>Moves one coordinate to a value that the CAD program would show.</summary>
+        /// <summary>Moves one coordinate to a value that the source would show.</summary>
         public KinefabResult Drive(int coordinate, double shown)
         {
             Moves++;

@@ -18,7 +18,7 @@ namespace KinefabUnity
         Error = 2,
     }
 
-    /// <summary>Something that was found about a file, or that it lost on its way out of CAD.</summary>
+    /// <summary>Something that was found about a file, or that it lost on its way out of its source.</summary>
     [Serializable]
     public struct KinefabFinding
     {

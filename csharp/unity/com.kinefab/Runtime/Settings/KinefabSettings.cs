@@ -24,7 +24,7 @@ namespace KinefabUnity
     public sealed class KinefabSettings
     {
         /// <summary>What becomes of bodies and joints.</summary>
-        [Tooltip("As the file has them; none: KinefabMechanism alone moves the parts; joints also in the place of an articulation; articulation where the file has one.")]
+        [Tooltip("As the file has them; none: KinefabMechanism alone moves the parts; joints also in the place of an articulation; articulation where the file has one (kinefab export --physics articulation), else its joints stay.")]
         public KinefabPhysics physics = KinefabPhysics.AsExported;
 
         /// <summary>Name or id of a part that stands still; empty: those that the file says.</summary>

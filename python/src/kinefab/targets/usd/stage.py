@@ -82,13 +82,16 @@ class Stage:
                 scope.remove_if_empty()
 
     def _is_written(self, joint: Joint, counted: Collection[str]) -> bool:
-        """Whether a joint moves something; the report tells of the others.  counted: joints that couplings count by."""
+        """Whether a joint moves something, or would; the report tells of the others.  counted: joints that couplings count by."""
         groups, report, feature = self.content.groups, self.content.report, f"joint {joint.id}"
         if (lost := groups.without_body(joint)) is not None:
             names = {"joint": joint.id, "node": self.content.scene.nodes[lost].id}
             report.dropped(feature, "JOINT_WITHOUT_BODY", joint.where, **names)
         elif groups.together(joint.a, joint.b):
-            if joint.unlocked:
+            if not joint.enabled:
+                told = {"joint": joint.id, "target": "one rigid body"}
+                report.dropped(feature, "JOINT_DISABLED_DROPPED", joint.where, **told)
+            elif joint.unlocked:
                 report.dropped(feature, "JOINT_REDUNDANT", joint.where, joint=joint.id)
             else:
                 report.kept(feature, joint.where)
@@ -96,15 +99,6 @@ class Stage:
             report.dropped(feature, "JOINT_REMOVES_NOTHING", joint.where, joint=joint.id)
         else:
             return True
-        return False
-
-    def _is_between_bodies(self, joint: Joint) -> bool:
-        """Of a joint that is switched off; the report tells of one that is not."""
-        groups = self.content.groups
-        if groups.without_body(joint) is None and not groups.together(joint.a, joint.b):
-            return True
-        told = {"joint": joint.id, "target": "one rigid body"}
-        self.content.report.dropped(f"joint {joint.id}", "JOINT_DISABLED_DROPPED", joint.where, **told)
         return False
 
     def _metadata(self, root: Prim) -> None:
@@ -188,7 +182,7 @@ class Stage:
                 members_of.setdefault(inside, []).append(i)
         for ground in bodies.grounded:
             write_grounded(self.prims[ground], scene, ground, tuple(members_of[ground]), report)
-        joints = [*joints, *filter(self._is_between_bodies, scene.switched_off)]
+        joints = [*joints, *(joint for joint in scene.switched_off if self._is_written(joint, ()))]
         named = sibling_names([(joint.name or joint.id, joint.id) for joint in joints])
         scope.reserve(named)
         top = next((i for i, prim in enumerate(self.prims) if prim is root), None)

@@ -20,7 +20,7 @@ internal sealed class LimitedSceneTests
     private const int Steps = 20;
     private const double MostOpen = 1e-8;
     private const double MostPassed = 2e-8;
-    private const double MostStopped = 0.02;
+    private const double MostStopped = 0.01;
 
     // Of the largest energy so far: in a few scenes, and in any.
     private const double MostUsualGain = 1e-3;

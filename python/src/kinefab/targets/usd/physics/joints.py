@@ -181,6 +181,8 @@ class Joints:
             self.report.kept(f"joint {joint.id}", joint.where)
         else:
             prim.attribute("physics:jointEnabled", "Bool", False)
+            # No tree may hang on it: an articulation's own joints cannot be switched on later.
+            prim.attribute("physics:excludeFromArticulation", "Bool", True, uniform=True)
             self.report.kept(f"joint {joint.id}", joint.where, "JOINT_DISABLED", joint=joint.id)
         names = {shape.name_of[i]: DOFS[i] for i in free}
         self.written[joint.id] = WrittenJoint(prim, names, len(free) == 1)

@@ -167,7 +167,7 @@ internal sealed class StepController
                 Audit(dt);
             }
 
-            if (halvings >= (_batch.ActiveSet == null ? MaxHalvings : MaxEvenHalvings))
+            if (halvings >= MostEven)
             {
                 SubstepUntilSolved(dt, halvings, tolerance);
                 break;
@@ -187,6 +187,8 @@ internal sealed class StepController
         RattleStep<ScalarLane>.Rebuild(_batch);
         InitialVelocityProjection.Apply(_batch, _exact);
     }
+
+    private int MostEven => _batch.ActiveSet == null ? MaxHalvings : MaxEvenHalvings;
 
     private void Audit(double dt)
     {
@@ -226,12 +228,13 @@ internal sealed class StepController
         _troubles |= _closure.IsOpen() ? StepTroubles.Open : StepTroubles.None;
     }
 
-    // At the finest even parts a violent motion without scalar rows may lose energy: nothing below these is better.
+    // At the finest even parts a violent motion on which no scalar row acts may lose energy: nothing below these is better. Were it allowed to lose
+    // at any, while a gain is mended, an energy that swings about its value would be let down step by step.
     private bool IsEnergyKept(int halvings, double h)
     {
         // A gain is a part's own to mend, not that of the part after it.
         double share = EarlyShare + (1 - EarlyShare) * (_elapsed + h) / _dt;
-        bool mayLose = _batch.ActiveSet != null || halvings >= MaxHalvings;
+        bool mayLose = _batch.ActiveSet is { HasActed: true } || halvings >= MostEven;
         return !_isAudited || new EnergyAudit(_batch, _dt, _tolerance).IsKept(_energy, mayLose, share * (mayLose ? MostEnergyGain : MostEnergyChange));
     }
 

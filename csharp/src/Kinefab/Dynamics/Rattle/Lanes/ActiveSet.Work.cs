@@ -8,6 +8,21 @@ namespace Kinefab.Dynamics.Rattle;
 internal sealed partial class ActiveSet<V>
     where V : struct, ILane<V>
 {
+    /// <summary>Whether a row gave any impulse since the start of the step.</summary>
+    public bool HasActed
+    {
+        get
+        {
+            bool hasActed = false;
+            for (int i = 0; i < _rows.Length && !hasActed; i++)
+            {
+                hasActed = _batch.Work.TotalImpulses[_rows[i].Index] != 0;
+            }
+
+            return hasActed;
+        }
+    }
+
     /// <summary>Opens the account of <see cref="SpringWork"/>.</summary>
     public void ClearWork()
     {

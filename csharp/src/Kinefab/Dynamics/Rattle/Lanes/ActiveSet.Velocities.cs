@@ -134,6 +134,24 @@ internal sealed partial class ActiveSet<V>
         }
     }
 
+    /// <summary>Takes out the springs whose answer their force limit does not allow; false when there are none.</summary>
+    public bool TakeOutOverloaded(double[] answers)
+    {
+        bool isAny = false;
+        for (int i = 0; i < _rows.Length; i++)
+        {
+            ref ScalarRow scalar = ref _rows[i];
+            double impulse = scalar.ImpulseFirstHalf + answers[scalar.Index];
+            if (scalar.Kind == RowKind.Spring && scalar.State == RowState.Free && !(impulse >= scalar.Low && impulse <= scalar.High))
+            {
+                scalar.State = RowState.AtBound;
+                isAny = true;
+            }
+        }
+
+        return isAny;
+    }
+
     /// <summary>Takes the springs out again, as a projection leaves them.</summary>
     public void EndCorrection()
     {

@@ -77,6 +77,29 @@ internal sealed class StiffSpringCorrection
             _angular[body] = LaneTransfer<ScalarLane>.ReadVector(_batch.Bodies, o + BodyLanes.W);
         }
 
+        Answer(scalars);
+        while (scalars.TakeOutOverloaded(_batch.Work.Move))
+        {
+            TakeBack();
+            Answer(scalars);
+        }
+
+        scalars.EndCorrection();
+    }
+
+    private void TakeBack()
+    {
+        double[] solution = _batch.Work.Solution;
+        for (int i = 0; i < solution.Length; i++)
+        {
+            solution[i] = -_batch.Work.Move[i];
+        }
+
+        Impulses<ScalarLane>.Apply(_batch, solution);
+    }
+
+    private void Answer(ActiveSet<ScalarLane> scalars)
+    {
         double[] solution = _batch.Work.Solution;
         double[] sum = _batch.Work.Move;
         RattleStep<ScalarLane>.Factor(_batch, false);
@@ -94,7 +117,5 @@ internal sealed class StiffSpringCorrection
                 sum[i] += solution[i];
             }
         }
-
-        scalars.EndCorrection();
     }
 }

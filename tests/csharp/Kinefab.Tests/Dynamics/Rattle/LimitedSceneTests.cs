@@ -114,6 +114,20 @@ internal sealed class LimitedSceneTests
         Assert.That(scene.Energy(), Is.LessThanOrEqualTo(first + 1e-3 * Math.Abs(first)));
     }
 
+    /// <summary>The answer of a stiff spring along rows that leave it open was not a number.</summary>
+    [Test]
+    public void Step_StiffSpringOfOpenRows_ShowsFiniteSpeeds()
+    {
+        var scene = new LimitedScene(1766);
+        var solver = new RattleSolver(scene.System, new List<InconsistentLoop>());
+        for (int i = 1; i <= 4; i++)
+        {
+            scene.Drive(i * scene.Step);
+            solver.Step(scene.Step);
+            Assert.That(MechanismMeasures.IsFinite(scene.System), $"step {i}");
+        }
+    }
+
     /// <summary>A motor of finite force on a loop that cannot move, with speeds at the start that its joints forbid: 64 stops.</summary>
     [Test]
     public void Step_MotorOnALoopThatCannotMove_StandsStill()

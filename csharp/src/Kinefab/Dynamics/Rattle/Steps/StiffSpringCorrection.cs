@@ -77,11 +77,16 @@ internal sealed class StiffSpringCorrection
             _angular[body] = LaneTransfer<ScalarLane>.ReadVector(_batch.Bodies, o + BodyLanes.W);
         }
 
-        Answer(scalars);
-        while (scalars.TakeOutOverloaded(_batch.Work.Move))
+        bool hasAnswer = TryAnswer(scalars);
+        while (hasAnswer && scalars.TakeOutOverloaded(_batch.Work.Move))
         {
             TakeBack();
-            Answer(scalars);
+            hasAnswer = TryAnswer(scalars);
+        }
+
+        if (!hasAnswer)
+        {
+            TakeBack();
         }
 
         scalars.EndCorrection();
@@ -98,7 +103,8 @@ internal sealed class StiffSpringCorrection
         Impulses<ScalarLane>.Apply(_batch, solution);
     }
 
-    private void Answer(ActiveSet<ScalarLane> scalars)
+    // False where the rows leave it open; what was applied by then is finite.
+    private bool TryAnswer(ActiveSet<ScalarLane> scalars)
     {
         double[] solution = _batch.Work.Solution;
         double[] sum = _batch.Work.Move;
@@ -111,11 +117,21 @@ internal sealed class StiffSpringCorrection
             scalars.AddTargets();
             scalars.SubtractCorrections(sum);
             DelassusMatrix<ScalarLane>.Solve(_batch, solution);
+            foreach (double impulse in solution)
+            {
+                if (!Finite.Is(impulse))
+                {
+                    return false;
+                }
+            }
+
             Impulses<ScalarLane>.Apply(_batch, solution);
             for (int i = 0; i < sum.Length; i++)
             {
                 sum[i] += solution[i];
             }
         }
+
+        return true;
     }
 }

@@ -38,11 +38,9 @@ internal sealed class StandingCollider
     {
         var found = new List<StandingCollider>();
         IReadOnlyList<GameObject> objects = scene.Document.GameObjects;
-        var isActive = new bool[objects.Count];
         for (int i = 0; i < objects.Count; i++)
         {
-            isActive[i] = objects[i].Active && (objects[i].Parent is not int parent || isActive[parent]);
-            if (!isActive[i])
+            if (!scene.IsActive(i))
                 continue;
             foreach (Component component in objects[i].Components)
             {
@@ -66,19 +64,19 @@ internal sealed class StandingCollider
                 for (int i = 0; i < corners.Length; i++)
                 {
                     var sign = new Vector3d((i & 1) - 0.5, ((i >> 1) & 1) - 0.5, (i >> 2) - 0.5);
-                    corners[i] = In(at, box.Center + Vector3d.Scale(box.Size, sign));
+                    corners[i] = at.Point(box.Center + Vector3d.Scale(box.Size, sign));
                 }
 
                 return new StandingCollider(owner, new ConvexShape(corners, 0), null);
             case SphereCollider sphere when sphere.Radius > 0:
-                return new StandingCollider(owner, new ConvexShape(new[] { In(at, sphere.Center) }, sphere.Radius * Largest(scale)), null);
+                return new StandingCollider(owner, new ConvexShape(new[] { at.Point(sphere.Center) }, sphere.Radius * Largest(scale)), null);
             case CapsuleCollider capsule when capsule.Radius > 0:
                 // Unity scales the height along the capsule and the radius by the larger of the other two.
                 int axis = (int)capsule.Direction;
                 double radius = capsule.Radius * Math.Max(Math.Abs(scale[(axis + 1) % 3]), Math.Abs(scale[(axis + 2) % 3]));
                 double half = Math.Max(0, Math.Abs(scale[axis]) * capsule.Height / 2 - radius);
                 Vector3d along = at.Pose.Rotation * (axis == 0 ? Vector3d.UnitX : axis == 1 ? Vector3d.UnitY : Vector3d.UnitZ);
-                Vector3d centre = In(at, capsule.Center);
+                Vector3d centre = at.Point(capsule.Center);
                 return new StandingCollider(owner, new ConvexShape(new[] { centre - half * along, centre + half * along }, radius), null);
             case MeshCollider mesh:
                 return OfMesh(scene, owner, mesh);
@@ -96,7 +94,7 @@ internal sealed class StandingCollider
             return null;
         var points = new Vector3d[numbers.Length / 3];
         for (int i = 0; i < points.Length; i++)
-            points[i] = In(at, new Vector3d(numbers[3 * i], numbers[3 * i + 1], numbers[3 * i + 2]));
+            points[i] = at.Point(new Vector3d(numbers[3 * i], numbers[3 * i + 1], numbers[3 * i + 2]));
         var hull = new ConvexShape(points, 0);
         if (collider.Convex)
             return new StandingCollider(owner, hull, null);
@@ -106,8 +104,6 @@ internal sealed class StandingCollider
             corners[i] = points[mesh.Indices16.Length > 0 ? mesh.Indices16[i] : (int)mesh.Indices32[i]];
         return new StandingCollider(owner, hull, corners);
     }
-
-    private static Vector3d In(in WorldTransform at, Vector3d local) => at.Pose.Point(Vector3d.Scale(at.Scale, local));
 
     private static double Largest(Vector3d size) => Math.Max(Math.Abs(size.X), Math.Max(Math.Abs(size.Y), Math.Abs(size.Z)));
 }

@@ -38,12 +38,10 @@ internal sealed class MechanismDefinition
         IReadOnlyList<GameObject> objects = scene.Document.GameObjects;
         var bodies = new List<int>();
         var bodyOf = new int[objects.Count];
-        var isActive = new bool[objects.Count];
         for (int i = 0; i < objects.Count; i++)
         {
-            isActive[i] = objects[i].Active && (objects[i].Parent is not int above || isActive[above]);
             bodyOf[i] = objects[i].Parent is int parent ? bodyOf[parent] : Kinefab.Joints.JointModel.World;
-            if (isActive[i] && scene.Body(i) is not null)
+            if (scene.IsActive(i) && scene.Body(i) is not null)
             {
                 bodyOf[i] = bodies.Count;
                 bodies.Add(i);
@@ -54,7 +52,7 @@ internal sealed class MechanismDefinition
         var firstJoints = new int[objects.Count + 1];
         for (int i = 0; i < objects.Count; i++)
         {
-            for (int c = 0; isActive[i] && c < objects[i].Components.Count; c++)
+            for (int c = 0; scene.IsActive(i) && c < objects[i].Components.Count; c++)
             {
                 if (objects[i].Components[c] is Document.Joint { Enabled: true } joint)
                 {
@@ -73,7 +71,7 @@ internal sealed class MechanismDefinition
 
         // An inactive connected body has left the simulation: the joint holds to the world where it stands, also where a body
         // further up would carry that object along. The connected object has a Rigidbody of its own, or the scene is not valid.
-        int Connected(Document.Joint joint) => joint.ConnectedBody is int other && isActive[other] ? bodyOf[other] : Kinefab.Joints.JointModel.World;
+        int Connected(Document.Joint joint) => joint.ConnectedBody is int other && scene.IsActive(other) ? bodyOf[other] : Kinefab.Joints.JointModel.World;
     }
 
     /// <summary>The joints, with frames in the bodies' frames.</summary>

@@ -23,7 +23,7 @@ internal static class UnityFrames
         Quaterniond axes = Axes(anchored.Axis, secondary);
         bool inWorld = joint is ConfigurableJoint { ConfiguredInWorldSpace: true };
         return new Pose(
-            own.Pose.Point(Vector3d.Scale(own.Scale, anchored.Anchor)),
+            own.Point(anchored.Anchor),
             inWorld ? axes : own.Pose.Rotation * axes);
     }
 
@@ -39,7 +39,7 @@ internal static class UnityFrames
         }
 
         Vector3d anchor = connected is WorldTransform body
-            ? body.Pose.Point(Vector3d.Scale(body.Scale, anchored.ConnectedAnchor))
+            ? body.Point(anchored.ConnectedAnchor)
             : anchored.ConnectedAnchor;
         return new Pose(anchor, ownFrame.Rotation);
     }

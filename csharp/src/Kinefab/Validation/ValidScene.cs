@@ -92,6 +92,9 @@ public sealed partial class ValidScene
     /// <exception cref="ArgumentOutOfRangeException">There is no such GameObject.</exception>
     public int? BodyOf(int gameObject) => places.BodyOf(Index(gameObject));
 
+    /// <summary>Whether a GameObject and all above it are active.</summary>
+    internal bool IsActive(int gameObject) => places.IsActive(gameObject);
+
     /// <summary>The joint that a coupling refers to.</summary>
     /// <param name="coordinate">One end of a coupling.</param>
     /// <returns>The component, on the GameObject that the reference names.</returns>

@@ -1,5 +1,6 @@
 using System;
 using System.Collections.Generic;
+using Kinefab.Numerics;
 
 namespace Kinefab.Kinematics;
 
@@ -66,16 +67,7 @@ internal static class NoisyRows
         double[] back = newton.Answer(rows, errors);
         foreach (double[] velocity in here.Basis)
         {
-            double share = 0;
-            for (int i = 0; i < step.Length; i++)
-            {
-                share += velocity[i] * back[i];
-            }
-
-            for (int i = 0; i < step.Length; i++)
-            {
-                back[i] -= share * velocity[i];
-            }
+            DenseVector.RemoveAlong(back, velocity);
         }
 
         for (int i = 0; i < step.Length; i++)

@@ -171,7 +171,7 @@ internal static class SingleLoop
         {
             for (int j = 0; j < a.Count; j++)
             {
-                cosines[i, j] = Dot(b[i], a[j]);
+                cosines[i, j] = DenseVector.Dot(b[i], a[j]);
             }
         }
 
@@ -195,36 +195,17 @@ internal static class SingleLoop
     {
         foreach (double[] other in known)
         {
-            double along = Dot(motion, other);
-            for (int i = 0; i < motion.Length; i++)
-            {
-                motion[i] -= along * other[i];
-            }
+            DenseVector.RemoveAlong(motion, other);
         }
 
-        double rest = Math.Sqrt(Dot(motion, motion));
+        double rest = DenseVector.Length(motion);
         if (rest <= New)
         {
             return false;
         }
 
-        for (int i = 0; i < motion.Length; i++)
-        {
-            motion[i] /= rest;
-        }
-
+        DenseVector.Divide(motion, rest);
         known.Add(motion);
         return true;
-    }
-
-    private static double Dot(double[] a, double[] b)
-    {
-        double sum = 0;
-        for (int i = 0; i < a.Length; i++)
-        {
-            sum += a[i] * b[i];
-        }
-
-        return sum;
     }
 }

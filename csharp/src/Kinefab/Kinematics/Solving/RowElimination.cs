@@ -54,11 +54,7 @@ internal sealed class RowElimination
             Reflect(length);
         }
 
-        foreach (int motion in _touched)
-        {
-            _row[motion] = 0;
-        }
-
+        Forget();
         return length;
     }
 
@@ -76,11 +72,7 @@ internal sealed class RowElimination
             }
         }
 
-        foreach (int motion in _touched)
-        {
-            _row[motion] = 0;
-        }
-
+        Forget();
         return row;
     }
 
@@ -107,6 +99,14 @@ internal sealed class RowElimination
         }
 
         return basis;
+    }
+
+    private void Forget()
+    {
+        foreach (int motion in _touched)
+        {
+            _row[motion] = 0;
+        }
     }
 
     private double Project(ReadOnlySpan<int> columns, ReadOnlySpan<double> entries)

@@ -211,20 +211,12 @@ internal sealed class VelocitySpace
                 }
             }
 
-            for (int k = 0; k <= m; k++)
+            for (int k = 0; k < m; k++)
             {
-                double share = 0;
-                for (int i = 0; i < motion.Length; i++)
-                {
-                    share += motion[i] * motions[k][i];
-                }
-
-                for (int i = 0; i < motion.Length; i++)
-                {
-                    motion[i] = k < m ? motion[i] - share * motions[k][i] : motion[i] / Math.Sqrt(share);
-                }
+                DenseVector.RemoveAlong(motion, motions[k]);
             }
 
+            DenseVector.Divide(motion, DenseVector.Length(motion));
             double[] rates = Rows.Times(motion);
             for (int r = 0; r < rates.Length; r++)
             {
@@ -263,13 +255,7 @@ internal sealed class VelocitySpace
         double longest = 0;
         foreach (int r in rows)
         {
-            double squares = 0;
-            foreach (double entry in Rows.Row(r))
-            {
-                squares += entry * entry;
-            }
-
-            longest = Math.Max(longest, Math.Sqrt(squares));
+            longest = Math.Max(longest, DenseVector.Length(Rows.Row(r)));
         }
 
         return longest;

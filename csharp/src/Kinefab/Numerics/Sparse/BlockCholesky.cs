@@ -136,7 +136,6 @@ internal static class BlockCholesky<V>
     [MethodImpl(MethodImplOptions.NoInlining)]
     private static void FactorFive(double[] a, int g, int stride)
     {
-        int w = Lane<V>.Width;
         int row1 = g + stride, row2 = row1 + stride, row3 = row2 + stride, row4 = row3 + stride;
         Lane<V> d = InverseRoot(Lane<V>.Load(a, g));
         d.Store(a, g);
@@ -199,7 +198,6 @@ internal static class BlockCholesky<V>
     [MethodImpl(MethodImplOptions.NoInlining)]
     private static void ForwardFive(double[] a, int row0, int stride, double[] b, int at, int count)
     {
-        int w = Lane<V>.Width;
         int row1 = row0 + stride, row2 = row1 + stride, row3 = row2 + stride, row4 = row3 + stride;
         for (; count > 0; count--, at += stride)
         {
@@ -243,7 +241,6 @@ internal static class BlockCholesky<V>
     [MethodImpl(MethodImplOptions.NoInlining)]
     private static void BackwardFive(double[] a, int g, int stride, double[] b, int at)
     {
-        int w = Lane<V>.Width;
         g += 4 * stride;
         Lane<V> x4 = Lane<V>.Load(b, at, 4) * Lane<V>.Load(a, g, 4);
         x4.Store(b, at, 4);

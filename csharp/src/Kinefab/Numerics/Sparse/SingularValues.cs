@@ -37,7 +37,7 @@ internal sealed class SingularValues
         var order = new int[columns];
         for (int i = 0; i < columns; i++)
         {
-            lengths[i] = Math.Sqrt(Dot(a[i], a[i]));
+            lengths[i] = Math.Sqrt(DenseVector.Dot(a[i], a[i]));
             order[i] = i;
         }
 
@@ -86,9 +86,9 @@ internal sealed class SingularValues
         {
             for (int j = i + 1; j < a.Length; j++)
             {
-                double p = Dot(a[i], a[i]);
-                double q = Dot(a[j], a[j]);
-                double r = Dot(a[i], a[j]);
+                double p = DenseVector.Dot(a[i], a[i]);
+                double q = DenseVector.Dot(a[j], a[j]);
+                double r = DenseVector.Dot(a[i], a[j]);
                 if (Math.Abs(r) <= Orthogonal * Math.Sqrt(p * q) || r == 0)
                 {
                     continue;
@@ -112,16 +112,5 @@ internal sealed class SingularValues
         {
             (x[i], y[i]) = (c * x[i] - s * y[i], s * x[i] + c * y[i]);
         }
-    }
-
-    private static double Dot(double[] x, double[] y)
-    {
-        double sum = 0;
-        for (int i = 0; i < x.Length; i++)
-        {
-            sum += x[i] * y[i];
-        }
-
-        return sum;
     }
 }

@@ -4,13 +4,14 @@ using Kinefab.Numerics;
 
 namespace Kinefab.Validation;
 
-/// <summary>Where each GameObject stands in the world and which body moves it, worked out in the file's order: parents stand before their children.</summary>
+/// <summary>Where each GameObject stands in the world, which body moves it and whether it is active, worked out in the file's order: parents stand before their children.</summary>
 internal sealed class HierarchyPlaces
 {
     private const int Nobody = -1;
 
     private readonly WorldTransform[] world;
     private readonly int[] bodyOf;
+    private readonly bool[] isActive;
     private int count;
 
     /// <summary>Before the first of so many GameObjects.</summary>
@@ -18,6 +19,7 @@ internal sealed class HierarchyPlaces
     {
         world = new WorldTransform[gameObjects];
         bodyOf = new int[gameObjects];
+        isActive = new bool[gameObjects];
     }
 
     /// <summary>How many GameObjects have their places by now.</summary>
@@ -41,11 +43,15 @@ internal sealed class HierarchyPlaces
         int parent = gameObject.Parent is int above && (uint)above < (uint)count ? above : Nobody;
         world[count] = parent == Nobody ? new WorldTransform(pose, local.LocalScale) : world[parent].Child(pose, local.LocalScale);
         bodyOf[count] = gameObject.Body is not null ? count : parent == Nobody ? Nobody : bodyOf[parent];
+        isActive[count] = gameObject.Active && (parent == Nobody || isActive[parent]);
         count++;
     }
 
     /// <summary>Of a GameObject that was added.</summary>
     internal ref readonly WorldTransform World(int gameObject) => ref world[gameObject];
+
+    /// <summary>Whether it and all above it are: GameObject.activeInHierarchy.</summary>
+    internal bool IsActive(int gameObject) => isActive[gameObject];
 
     /// <summary>The GameObject whose Rigidbody moves this one: itself or its nearest ancestor that has one; null: nothing does.</summary>
     internal int? BodyOf(int gameObject) => bodyOf[gameObject] is var body && body != Nobody ? body : null;

@@ -8,8 +8,8 @@ internal static class JointAnchors
 {
     /// <summary>From the connected anchor to the own one, world, metres.</summary>
     internal static Vector3d Gap(AnchoredJoint joint, WorldTransform own, WorldTransform connected) =>
-        own.Pose.Point(Vector3d.Scale(own.Scale, joint.Anchor))
-        - connected.Pose.Point(Vector3d.Scale(connected.Scale, joint.ConnectedAnchor));
+        own.Point(joint.Anchor)
+        - connected.Point(joint.ConnectedAnchor);
 
     /// <summary>The same along the joint's X, Y and Z; zero where Unity works the connected anchor out.</summary>
     internal static Vector3d StartGap(ConfigurableJoint joint, WorldTransform own, WorldTransform connected) =>

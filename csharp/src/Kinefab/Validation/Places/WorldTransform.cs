@@ -24,6 +24,9 @@ public readonly struct WorldTransform
     /// <summary>Along the own axes: Unity's lossyScale, exact unless a turned object hangs under an unevenly scaled one.</summary>
     public Vector3d Scale { get; }
 
+    /// <summary>Where a point of the GameObject's own axes is in the world, metres.</summary>
+    internal Vector3d Point(Vector3d local) => Pose.Point(Vector3d.Scale(Scale, local));
+
     /// <summary>Of a child of this GameObject, from its local pose and scale.</summary>
     internal WorldTransform Child(Pose local, Vector3d scale) =>
         new(Pose * new Pose(Vector3d.Scale(Scale, local.Position), local.Rotation), Vector3d.Scale(Scale, scale));

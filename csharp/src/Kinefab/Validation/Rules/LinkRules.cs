@@ -91,7 +91,7 @@ internal static class LinkRules
     /// <summary>The two anchors of a joint are one frame at the start; else the first step snaps the link there.</summary>
     internal static void Anchors(ArticulationBody link, WorldTransform own, WorldTransform above, in Place at)
     {
-        double gap = (own.Pose.Point(Vector3d.Scale(own.Scale, link.AnchorPosition)) - above.Pose.Point(Vector3d.Scale(above.Scale, link.ParentAnchorPosition))).Length;
+        double gap = (own.Point(link.AnchorPosition) - above.Point(link.ParentAnchorPosition)).Length;
         Quaterniond turn = (own.Pose.Rotation * link.AnchorRotation.Normalized()).Conjugate() * (above.Pose.Rotation * link.ParentAnchorRotation.Normalized());
         double angle = 2 * Trigonometry.Atan2(turn.Vector.Length, Math.Abs(turn.W)) * 180 / Math.PI;
         if (gap > LeastGap || angle > LeastAngle)

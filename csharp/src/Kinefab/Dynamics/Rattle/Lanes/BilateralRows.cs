@@ -207,7 +207,6 @@ internal static class BilateralRows<V>
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
     public static LaneVector<V> BuiltLever(double[] rows, int first)
     {
-        int w = Lane<V>.Width;
         return new LaneVector<V>(Lane<V>.Load(rows, first, 8), Lane<V>.Load(rows, first, 12), Lane<V>.Load(rows, first, 1));
     }
 

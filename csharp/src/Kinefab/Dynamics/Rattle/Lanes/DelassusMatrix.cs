@@ -56,7 +56,6 @@ internal static class DelassusMatrix<V>
     [MethodImpl(MethodImplOptions.NoInlining)]
     private static void InverseInertia(double[] a, int body)
     {
-        int w = Lane<V>.Width;
         int r = LaneRecords<V>.Body(body, BodyLanes.R);
         LaneVector<V> inverse = LaneVector<V>.Load(a, LaneRecords<V>.Body(body, BodyLanes.InverseInertia));
         LaneVector<V> x = LaneVector<V>.Load(a, r);
@@ -259,7 +258,6 @@ internal static class DelassusMatrix<V>
     {
         double[] a = batch.Bodies;
         double[] responses = batch.Work.Response;
-        int w = Lane<V>.Width;
         LaneVector<V> r = BilateralRows<V>.BuiltLever(batch.Angular, o);
         Lane<V> xy = Lane<V>.Load(a, inverse, 3), xz = Lane<V>.Load(a, inverse, 4), yz = Lane<V>.Load(a, inverse, 5);
         var x = new LaneVector<V>(Lane<V>.Load(a, inverse), xy, xz);

@@ -22,7 +22,6 @@ internal static class FreeMotion<V>
     public static void Drift(LaneRecords<V> batch, double h)
     {
         double[] a = batch.Bodies;
-        int w = Lane<V>.Width;
         Lane<V> step = Lane<V>.Splat(h);
         for (int body = 0; body < batch.Shape.MovingBodies; body++)
         {
@@ -42,7 +41,6 @@ internal static class FreeMotion<V>
     public static void DriftKinematic(LaneRecords<V> batch, double h)
     {
         double[] a = batch.Bodies;
-        int w = Lane<V>.Width;
         Lane<V> step = Lane<V>.Splat(h);
         Lane<V> half = Lane<V>.Splat(h / 2);
         for (int body = batch.Shape.MovingBodies; body < batch.Shape.Bodies.Length; body++)
@@ -67,7 +65,6 @@ internal static class FreeMotion<V>
     public static void Stay(LaneRecords<V> batch)
     {
         double[] a = batch.Bodies;
-        int w = Lane<V>.Width;
         for (int body = 0; body < batch.Shape.Bodies.Length; body++)
         {
             int o = LaneRecords<V>.Body(body, 0);
@@ -102,7 +99,6 @@ internal static class FreeMotion<V>
     [MethodImpl(MethodImplOptions.NoInlining)]
     private static void MeasureMeanRate(double[] a, int o, double h)
     {
-        int w = Lane<V>.Width;
         LaneQuaternion<V> q = LaneQuaternion<V>.Load(a, o, BodyLanes.EndQ) * LaneQuaternion<V>.Load(a, o, BodyLanes.Q).Conjugate();
         (Lane<V>.Splat(1 / h) * q.RotationVector()).Store(a, o, BodyLanes.W);
     }
@@ -204,7 +200,6 @@ internal static class FreeMotion<V>
     [MethodImpl(MethodImplOptions.NoInlining)]
     private static void Normalise(double[] a, int o)
     {
-        int w = Lane<V>.Width;
         LaneQuaternion<V> q = LaneQuaternion<V>.Load(a, o, BodyLanes.EndQ).NearlyNormalized();
         q.Store(a, o, BodyLanes.EndQ);
         q.StoreMatrix(a, o, BodyLanes.R);

@@ -117,7 +117,6 @@ internal static class LaneTransfer<V>
     public static void EndStep(LaneRecords<V> batch)
     {
         double[] a = batch.Bodies;
-        int w = Lane<V>.Width;
         for (int body = 0; body < batch.Shape.MovingBodies; body++)
         {
             int o = LaneRecords<V>.Body(body, 0);
@@ -253,7 +252,6 @@ internal static class LaneTransfer<V>
     private static void Dampen(LaneRecords<V> batch, int o)
     {
         double[] a = batch.Bodies;
-        int w = Lane<V>.Width;
         (Lane<V>.Load(a, o, BodyLanes.DampingFactors) * LaneVector<V>.Load(a, o, BodyLanes.V)).Store(a, o, BodyLanes.V);
         LaneVector<V> rate = Lane<V>.Load(a, o, BodyLanes.DampingFactors + 1) * LaneVector<V>.Load(a, o, BodyLanes.W);
         Lane<V> square = LaneVector<V>.Dot(rate, rate);
@@ -268,7 +266,6 @@ internal static class LaneTransfer<V>
     [MethodImpl(MethodImplOptions.NoInlining)]
     private static void TakeMomentum(double[] a, int o)
     {
-        int w = Lane<V>.Width;
         LaneQuaternion<V> q = LaneQuaternion<V>.Load(a, o, BodyLanes.Q);
         LaneVector<V> inBody = q.InverseRotate(LaneVector<V>.Load(a, o, BodyLanes.W));
         q.Rotate(LaneVector<V>.Scale(LaneVector<V>.Load(a, o, BodyLanes.Inertia), inBody)).Store(a, o, BodyLanes.L);

@@ -22,7 +22,6 @@ internal static class LockedInertiaAxes<V>
     [MethodImpl(MethodImplOptions.NoInlining)]
     private static void ClearMomentum(double[] a, int o)
     {
-        int w = Lane<V>.Width;
         LaneQuaternion<V> q = LaneQuaternion<V>.Load(a, o, BodyLanes.Q);
         LaneVector<V> inBody = q.InverseRotate(LaneVector<V>.Load(a, o, BodyLanes.L));
 

@@ -138,7 +138,6 @@ internal static class RattleStep<V>
     /// <summary>The end pose becomes the start pose, in all lanes.</summary>
     public static void Accept(LaneBatch<V> batch)
     {
-        int w = Lane<V>.Width;
         double[] a = batch.Bodies;
         for (int body = 0; body < batch.Shape.Bodies.Length; body++)
         {
@@ -163,7 +162,6 @@ internal static class RattleStep<V>
     /// <summary>v += t a, L += t torque in the active lanes.</summary>
     public static void Kick(LaneBatch<V> batch, double t)
     {
-        int w = Lane<V>.Width;
         double[] a = batch.Bodies;
         Lane<V> time = Lane<V>.Select(Lane<V>.Load(batch.Work.Active, 0), Lane<V>.Splat(t), Lane<V>.Splat(0));
         for (int body = 0; body < batch.Shape.MovingBodies; body++)

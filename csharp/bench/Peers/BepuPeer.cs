@@ -43,7 +43,7 @@ internal sealed class BepuPeer : IPeer
 
         BodyHandle world = _simulation.Bodies.Add(BodyDescription.CreateKinematic(RigidPose.Identity, default, new BodyActivityDescription(-1)));
         var spring = new SpringSettings(frequency, 1);
-        foreach (PeerHinge hinge in PeerHinge.Of(scene))
+        foreach (PeerJoint hinge in PeerJoint.Hinges(scene))
         {
             BodyHandle body0 = hinge.Body0 < 0 ? world : _bodies[hinge.Body0];
             BodyHandle body1 = hinge.Body1 < 0 ? world : _bodies[hinge.Body1];
@@ -55,7 +55,7 @@ internal sealed class BepuPeer : IPeer
                 LocalHingeAxisB = Vector3.Normalize(Of(hinge.Frame1.Rotation * Vector3d.UnitX)),
                 SpringSettings = spring,
             });
-            if (hinge.IsDriven)
+            if (hinge.Motor is not null)
             {
                 // The servo's axis is Z of its bases.
                 Quaterniond toX = new Quaterniond(0, 1, 0, 1).Normalized();

@@ -34,10 +34,10 @@ internal sealed class JitterPeer : IPeer
             _bodies.Add(body);
         }
 
-        foreach (PeerHinge hinge in PeerHinge.Of(scene))
+        foreach (PeerJoint hinge in PeerJoint.Hinges(scene))
         {
             RigidBody body0 = hinge.Body0 < 0 ? _world.NullBody : _bodies[hinge.Body0];
-            var joint = new HingeJoint(_world, body0, _bodies[hinge.Body1], Of(hinge.Frame.Position), Of(hinge.Frame.Rotation * Vector3d.UnitX), hinge.IsDriven);
+            var joint = new HingeJoint(_world, body0, _bodies[hinge.Body1], Of(hinge.Frame.Position), Of(hinge.Frame.Rotation * Vector3d.UnitX), hinge.Motor is not null);
             if (joint.Motor is { } motor)
             {
                 motor.TargetVelocity = 0;

@@ -34,15 +34,23 @@ internal sealed class NativePeer : IPeer
             body(_world, Numbers(bodies.Poses[i]), 1 / bodies.InverseMasses[i], new[] { 1 / inverse.X, 1 / inverse.Y, 1 / inverse.Z }, new[] { v.X, v.Y, v.Z, w.X, w.Y, w.Z });
         }
 
-        foreach (PeerHinge h in PeerHinge.Of(scene))
-            hinge(_world, h.Body0, h.Body1, Numbers(h.Frame), Numbers(h.Frame0), Numbers(h.Frame1), h.IsDriven ? 1 : 0);
+        foreach (PeerJoint joint in PeerJoint.Of(scene))
+        {
+            (double speed, double limit) = joint.Motor ?? default;
+            if (joint.IsSlider)
+                Function<Slider>(library, "peer_slider")(_world, joint.Body0, joint.Body1, Numbers(joint.Frame));
+            else
+                hinge(_world, joint.Body0, joint.Body1, Numbers(joint.Frame), Numbers(joint.Frame0), Numbers(joint.Frame1), joint.Motor is null ? 0 : 1, speed, limit);
+        }
     }
 
     private delegate IntPtr Creator(int substeps, double frequency, double[] gravity);
 
     private delegate void Body(IntPtr world, double[] pose, double mass, double[] inertia, double[] velocity);
 
-    private delegate void Hinge(IntPtr world, int body0, int body1, double[] frame, double[] frame0, double[] frame1, int isDriven);
+    private delegate void Hinge(IntPtr world, int body0, int body1, double[] frame, double[] frame0, double[] frame1, int isDriven, double speed, double limit);
+
+    private delegate void Slider(IntPtr world, int body0, int body1, double[] frame);
 
     private delegate void Stepper(IntPtr world, double dt);
 

@@ -15,6 +15,12 @@ internal static class PeerList
     /// <summary>The peer against which the others' times are divided.</summary>
     public const string Reference = "Jitter2, default";
 
+    /// <summary>Those against which scenes of a single mechanism are held.</summary>
+    public const string Ode = "ODE, WorldStep";
+
+    /// <summary>Likewise.</summary>
+    public const string FineBepu = "Bepu, 8 substeps, 120 Hz";
+
     /// <summary>Engine with settings, and how it takes a scene.</summary>
     public static IEnumerable<(string Name, Func<MultibodySystem, IPeer> Make)> All()
     {
@@ -23,7 +29,7 @@ internal static class PeerList
 #endif
 #if BEPU
         yield return ("Bepu, 8 iterations, 30 Hz", scene => new BepuPeer(scene, 8, 1, 30));
-        yield return ("Bepu, 8 substeps, 120 Hz", scene => new BepuPeer(scene, 1, 8, 120));
+        yield return (FineBepu, scene => new BepuPeer(scene, 1, 8, 120));
 #endif
         if (Library("box3d") is { } box3d)
         {
@@ -32,7 +38,7 @@ internal static class PeerList
         }
 
         if (Library("ode") is { } ode)
-            yield return ("ODE, WorldStep", scene => new NativePeer(ode, scene, 1, 0));
+            yield return (Ode, scene => new NativePeer(ode, scene, 1, 0));
     }
 
     /// <summary>Engines that the tables have and that are not there.</summary>

@@ -61,7 +61,7 @@ void peer_body(void* world, const double* pose, double mass, const double* inert
 	b3Body_SetMassData(body, data);
 }
 
-void peer_hinge(void* world, int body0, int body1, const double* frame, const double* frame0, const double* frame1, int is_driven)
+void peer_hinge(void* world, int body0, int body1, const double* frame, const double* frame0, const double* frame1, int is_driven, double speed, double limit)
 {
 	(void)frame;
 	World* w = world;
@@ -75,7 +75,8 @@ void peer_hinge(void* world, int body0, int body1, const double* frame, const do
 	if (is_driven)
 	{
 		def.enableMotor = true;
-		def.maxMotorTorque = 1e6f;
+		def.motorSpeed = (float)speed;
+		def.maxMotorTorque = (float)limit;
 	}
 	b3CreateRevoluteJoint(w->id, &def);
 }

@@ -39,21 +39,42 @@ void peer_body(void* world, const double* pose, double mass, const double* inert
 	w->bodies[w->count++] = body;
 }
 
-void peer_hinge(void* world, int body0, int body1, const double* frame, const double* frame0, const double* frame1, int is_driven)
+static void axis_x(const double* frame, double* axis)
+{
+	double x = frame[3], y = frame[4], z = frame[5], s = frame[6];
+	axis[0] = 1 - 2 * (y * y + z * z);
+	axis[1] = 2 * (x * y + s * z);
+	axis[2] = 2 * (x * z - s * y);
+}
+
+static dBodyID body_at(const World* w, int body) { return body < 0 ? 0 : w->bodies[body]; }
+
+void peer_hinge(void* world, int body0, int body1, const double* frame, const double* frame0, const double* frame1, int is_driven, double speed, double limit)
 {
 	(void)frame0;
 	(void)frame1;
 	World* w = world;
 	dJointID joint = dJointCreateHinge(w->id, 0);
-	dJointAttach(joint, body0 < 0 ? 0 : w->bodies[body0], body1 < 0 ? 0 : w->bodies[body1]);
+	dJointAttach(joint, body_at(w, body0), body_at(w, body1));
 	dJointSetHingeAnchor(joint, frame[0], frame[1], frame[2]);
-	double x = frame[3], y = frame[4], z = frame[5], s = frame[6];
-	dJointSetHingeAxis(joint, 1 - 2 * (y * y + z * z), 2 * (x * y + s * z), 2 * (x * z - s * y));
+	double x[3];
+	axis_x(frame, x);
+	dJointSetHingeAxis(joint, x[0], x[1], x[2]);
 	if (is_driven)
 	{
-		dJointSetHingeParam(joint, dParamVel, 0);
-		dJointSetHingeParam(joint, dParamFMax, 1e6);
+		dJointSetHingeParam(joint, dParamVel, -speed);
+		dJointSetHingeParam(joint, dParamFMax, limit);
 	}
+}
+
+void peer_slider(void* world, int body0, int body1, const double* frame)
+{
+	World* w = world;
+	dJointID joint = dJointCreateSlider(w->id, 0);
+	dJointAttach(joint, body_at(w, body0), body_at(w, body1));
+	double x[3];
+	axis_x(frame, x);
+	dJointSetSliderAxis(joint, x[0], x[1], x[2]);
 }
 
 void peer_step(void* world, double dt)

@@ -62,7 +62,8 @@ void peer_hinge(void* world, int body0, int body1, const double* frame, const do
 	dJointSetHingeAxis(joint, x[0], x[1], x[2]);
 	if (is_driven)
 	{
-		dJointSetHingeParam(joint, dParamVel, -speed);
+		// ODE's speed is that of the first body against the second, and a world in the first place changes places with the second.
+		dJointSetHingeParam(joint, dParamVel, body0 < 0 ? speed : -speed);
 		dJointSetHingeParam(joint, dParamFMax, limit);
 	}
 }

@@ -3,9 +3,11 @@ using System.Runtime.CompilerServices;
 namespace Kinefab.Numerics;
 
 /// <summary>
-/// A = G S G^T in place for symmetric block-sparse matrices of one pattern, several at a time in lanes; S is 1 for the rows of
-/// positive nodes, -1 for those of negative ones. Number i of the pattern stands at i * width in the array. The factor's diagonal is stored inverted. The first five rows
-/// of a node, those of a hinge, go through registers; the order of operations is the same for all sizes.
+/// A = L D L^T in place for symmetric block-sparse matrices of one pattern, several at a time in lanes; D is positive for the rows of
+/// positive nodes, negative for those of negative ones. Number i of the pattern stands at i * width in the array. A diagonal block keeps the
+/// factor of its own, T D T^T, its D inverted; below it stands what T leaves of L's columns, so that a node waits for its neighbours
+/// in a solution, but for no other row of its own. The first five rows of a node, those of a hinge, go through registers; the order of
+/// operations is the same for all sizes.
 /// </summary>
 internal static class BlockCholesky<V>
     where V : struct, ILane<V>
@@ -28,10 +30,15 @@ internal static class BlockCholesky<V>
             int diagonal = column.Diagonal * w;
             if (column.IsNegative)
             {
-                Negate(a, diagonal, n * n);
+                Negate(a, diagonal, n * n, w);
             }
 
             FactorDiagonal(a, diagonal, n);
+            if (column.IsNegative)
+            {
+                Negate(a, diagonal, n, (n + 1) * w);
+            }
+
             BlockPattern.Block[] below = column.Below;
             int product = 0;
             for (int i = 0; i < below.Length; i++)
@@ -40,14 +47,13 @@ internal static class BlockCholesky<V>
                 Forward(a, diagonal, a, x, n, below[i].Size);
                 for (int k = 0; k <= i; k++)
                 {
-                    if (column.IsNegative)
-                    {
-                        AddProduct(a, column.Products[product++] * w, x, below[i].Size, below[k].Offset * w, k < i ? below[k].Size : Triangle, n);
-                        continue;
-                    }
-
-                    SubtractProduct(a, column.Products[product++] * w, x, below[i].Size, a, below[k].Offset * w, k < i ? below[k].Size : Triangle, n);
+                    SubtractProduct(a, column.Products[product++] * w, x, below[i].Size, below[k].Offset * w, k < i ? below[k].Size : Triangle, n, diagonal);
                 }
+            }
+
+            foreach (BlockPattern.Block block in below)
+            {
+                Backward(a, diagonal, a, block.Offset * w, n, block.Size);
             }
         }
     }
@@ -59,43 +65,28 @@ internal static class BlockCholesky<V>
         BlockPattern.Column[] columns = pattern.Columns;
         foreach (BlockPattern.Column column in columns)
         {
-            Forward(a, column.Diagonal * w, b, column.Row * w, column.Size, 1);
-            if (column.IsNegative)
-            {
-                Negate(b, column.Row * w, column.Size);
-            }
-
             foreach (BlockPattern.Block block in column.Below)
             {
-                SubtractProduct(b, block.Row * w, column.Row * w, 1, a, block.Offset * w, block.Size, column.Size);
+                SubtractRows(a, block.Offset * w, block.Size, column.Size, b, column.Row * w, block.Row * w);
             }
+
+            Forward(a, column.Diagonal * w, b, column.Row * w, column.Size, 1);
+            Backward(a, column.Diagonal * w, b, column.Row * w, column.Size, 1);
         }
 
         for (int turn = columns.Length - 1; turn >= 0; turn--)
         {
             BlockPattern.Column column = columns[turn];
-            if (column.IsNegative)
-            {
-                Negate(b, column.Row * w, column.Size);
-            }
-
             foreach (BlockPattern.Block block in column.Below)
             {
                 SubtractTransposed(a, block.Offset * w, block.Size, column.Size, b, block.Row * w, column.Row * w);
             }
-
-            Backward(a, column.Diagonal * w, b, column.Row * w, column.Size);
-            if (column.IsNegative)
-            {
-                Negate(b, column.Row * w, column.Size);
-            }
         }
     }
 
-    private static void Negate(double[] a, int at, int count)
+    private static void Negate(double[] a, int at, int count, int step)
     {
-        int w = Lane<V>.Width;
-        for (int end = at + count * w; at < end; at += w)
+        for (; count > 0; count--, at += step)
         {
             (Lane<V>.Splat(0) - Lane<V>.Load(a, at)).Store(a, at);
         }
@@ -124,12 +115,19 @@ internal static class BlockCholesky<V>
                     s -= Lane<V>.Load(a, row + t) * Lane<V>.Load(a, other + t);
                 }
 
-                s *= Lane<V>.Load(a, other + j * w);
                 s.Store(a, row + j * w);
-                pivot -= s * s;
             }
 
-            InverseRoot(pivot).Store(a, row + i * w);
+            other = diagonal;
+            for (int j = 0; j < i; j++, other += (n + 1) * w)
+            {
+                Lane<V> s = Lane<V>.Load(a, row + j * w);
+                Lane<V> scaled = s * Lane<V>.Load(a, other);
+                scaled.Store(a, row + j * w);
+                pivot -= s * scaled;
+            }
+
+            Inverse(pivot).Store(a, row + i * w);
         }
     }
 
@@ -137,42 +135,57 @@ internal static class BlockCholesky<V>
     private static void FactorFive(double[] a, int g, int stride)
     {
         int row1 = g + stride, row2 = row1 + stride, row3 = row2 + stride, row4 = row3 + stride;
-        Lane<V> d = InverseRoot(Lane<V>.Load(a, g));
+        Lane<V> d = Inverse(Lane<V>.Load(a, g));
         d.Store(a, g);
-        Lane<V> l10 = Lane<V>.Load(a, row1) * d, l20 = Lane<V>.Load(a, row2) * d, l30 = Lane<V>.Load(a, row3) * d, l40 = Lane<V>.Load(a, row4) * d;
-        l10.Store(a, row1);
-        l20.Store(a, row2);
-        l30.Store(a, row3);
-        l40.Store(a, row4);
-        d = InverseRoot(Lane<V>.Load(a, row1, 1) - l10 * l10);
+        Lane<V> s1 = Lane<V>.Load(a, row1), s2 = Lane<V>.Load(a, row2), s3 = Lane<V>.Load(a, row3), s4 = Lane<V>.Load(a, row4);
+        Lane<V> t1 = s1 * d, t2 = s2 * d, t3 = s3 * d, t4 = s4 * d;
+        t1.Store(a, row1);
+        t2.Store(a, row2);
+        t3.Store(a, row3);
+        t4.Store(a, row4);
+        Lane<V> d11 = Lane<V>.Load(a, row1, 1) - s1 * t1;
+        Lane<V> d21 = Lane<V>.Load(a, row2, 1) - s2 * t1, d22 = Lane<V>.Load(a, row2, 2) - s2 * t2;
+        Lane<V> d31 = Lane<V>.Load(a, row3, 1) - s3 * t1, d32 = Lane<V>.Load(a, row3, 2) - s3 * t2, d33 = Lane<V>.Load(a, row3, 3) - s3 * t3;
+        Lane<V> d41 = Lane<V>.Load(a, row4, 1) - s4 * t1, d42 = Lane<V>.Load(a, row4, 2) - s4 * t2;
+        Lane<V> d43 = Lane<V>.Load(a, row4, 3) - s4 * t3, d44 = Lane<V>.Load(a, row4, 4) - s4 * t4;
+        d = Inverse(d11);
         d.Store(a, row1, 1);
-        Lane<V> l21 = (Lane<V>.Load(a, row2, 1) - l20 * l10) * d;
-        Lane<V> l31 = (Lane<V>.Load(a, row3, 1) - l30 * l10) * d;
-        Lane<V> l41 = (Lane<V>.Load(a, row4, 1) - l40 * l10) * d;
-        l21.Store(a, row2, 1);
-        l31.Store(a, row3, 1);
-        l41.Store(a, row4, 1);
-        d = InverseRoot(Lane<V>.Load(a, row2, 2) - l20 * l20 - l21 * l21);
+        t2 = d21 * d;
+        t3 = d31 * d;
+        t4 = d41 * d;
+        t2.Store(a, row2, 1);
+        t3.Store(a, row3, 1);
+        t4.Store(a, row4, 1);
+        d22 -= d21 * t2;
+        d32 -= d31 * t2;
+        d33 -= d31 * t3;
+        d42 -= d41 * t2;
+        d43 -= d41 * t3;
+        d44 -= d41 * t4;
+        d = Inverse(d22);
         d.Store(a, row2, 2);
-        Lane<V> l32 = (Lane<V>.Load(a, row3, 2) - l30 * l20 - l31 * l21) * d;
-        Lane<V> l42 = (Lane<V>.Load(a, row4, 2) - l40 * l20 - l41 * l21) * d;
-        l32.Store(a, row3, 2);
-        l42.Store(a, row4, 2);
-        d = InverseRoot(Lane<V>.Load(a, row3, 3) - l30 * l30 - l31 * l31 - l32 * l32);
+        t3 = d32 * d;
+        t4 = d42 * d;
+        t3.Store(a, row3, 2);
+        t4.Store(a, row4, 2);
+        d33 -= d32 * t3;
+        d43 -= d42 * t3;
+        d44 -= d42 * t4;
+        d = Inverse(d33);
         d.Store(a, row3, 3);
-        Lane<V> l43 = (Lane<V>.Load(a, row4, 3) - l40 * l30 - l41 * l31 - l42 * l32) * d;
-        l43.Store(a, row4, 3);
-        InverseRoot(Lane<V>.Load(a, row4, 4) - l40 * l40 - l41 * l41 - l42 * l42 - l43 * l43).Store(a, row4, 4);
+        t4 = d43 * d;
+        t4.Store(a, row4, 3);
+        Inverse(d44 - d43 * t4).Store(a, row4, 4);
     }
 
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
-    private static Lane<V> InverseRoot(Lane<V> pivot) => Lane<V>.Splat(1) / Lane<V>.Sqrt(Lane<V>.Max(pivot, Lane<V>.Splat(LeastPivot)));
+    private static Lane<V> Inverse(Lane<V> pivot) => Lane<V>.Splat(1) / Lane<V>.Max(pivot, Lane<V>.Splat(LeastPivot));
 
-    // Solves G x = b in place, for so many b one after the other.
+    // T x = b in place, for so many b one after the other.
     private static void Forward(double[] a, int diagonal, double[] b, int at, int n, int count)
     {
         int w = Lane<V>.Width;
-        int first = 0;
+        int first = 1;
         if (n >= Five)
         {
             ForwardFive(a, diagonal, n * w, b, at, count);
@@ -190,103 +203,118 @@ internal static class BlockCholesky<V>
                     s -= Lane<V>.Load(a, row + t) * Lane<V>.Load(b, at + t);
                 }
 
-                (s * Lane<V>.Load(a, row + i * w)).Store(b, at + i * w);
+                s.Store(b, at + i * w);
             }
         }
     }
 
     [MethodImpl(MethodImplOptions.NoInlining)]
-    private static void ForwardFive(double[] a, int row0, int stride, double[] b, int at, int count)
+    private static void ForwardFive(double[] a, int g, int stride, double[] b, int at, int count)
     {
-        int row1 = row0 + stride, row2 = row1 + stride, row3 = row2 + stride, row4 = row3 + stride;
+        int row1 = g + stride, row2 = row1 + stride, row3 = row2 + stride, row4 = row3 + stride;
+        Lane<V> t10 = Lane<V>.Load(a, row1), t20 = Lane<V>.Load(a, row2), t21 = Lane<V>.Load(a, row2, 1);
+        Lane<V> t30 = Lane<V>.Load(a, row3), t31 = Lane<V>.Load(a, row3, 1), t32 = Lane<V>.Load(a, row3, 2);
+        Lane<V> t40 = Lane<V>.Load(a, row4), t41 = Lane<V>.Load(a, row4, 1), t42 = Lane<V>.Load(a, row4, 2), t43 = Lane<V>.Load(a, row4, 3);
         for (; count > 0; count--, at += stride)
         {
-            Lane<V> x0 = Lane<V>.Load(b, at) * Lane<V>.Load(a, row0);
-            x0.Store(b, at);
-            Lane<V> x1 = (Lane<V>.Load(b, at, 1) - x0 * Lane<V>.Load(a, row1)) * Lane<V>.Load(a, row1, 1);
+            Lane<V> x0 = Lane<V>.Load(b, at);
+            Lane<V> x1 = Lane<V>.Load(b, at, 1) - x0 * t10;
             x1.Store(b, at, 1);
-            Lane<V> x2 = (Lane<V>.Load(b, at, 2) - x0 * Lane<V>.Load(a, row2) - x1 * Lane<V>.Load(a, row2, 1)) * Lane<V>.Load(a, row2, 2);
+            Lane<V> x2 = Lane<V>.Load(b, at, 2) - x0 * t20 - x1 * t21;
             x2.Store(b, at, 2);
-            Lane<V> x3 = (Lane<V>.Load(b, at, 3) - x0 * Lane<V>.Load(a, row3) - x1 * Lane<V>.Load(a, row3, 1)
-                - x2 * Lane<V>.Load(a, row3, 2)) * Lane<V>.Load(a, row3, 3);
+            Lane<V> x3 = Lane<V>.Load(b, at, 3) - x0 * t30 - x1 * t31 - x2 * t32;
             x3.Store(b, at, 3);
-            Lane<V> x4 = (Lane<V>.Load(b, at, 4) - x0 * Lane<V>.Load(a, row4) - x1 * Lane<V>.Load(a, row4, 1)
-                - x2 * Lane<V>.Load(a, row4, 2) - x3 * Lane<V>.Load(a, row4, 3)) * Lane<V>.Load(a, row4, 4);
-            x4.Store(b, at, 4);
+            (Lane<V>.Load(b, at, 4) - x0 * t40 - x1 * t41 - x2 * t42 - x3 * t43).Store(b, at, 4);
         }
     }
 
-    // Solves G^T x = b in place.
-    private static void Backward(double[] a, int diagonal, double[] b, int at, int n)
+    // T^T x = D^-1 b in place, likewise.
+    private static void Backward(double[] a, int diagonal, double[] b, int at, int n, int count)
     {
         int w = Lane<V>.Width;
-        int last = n >= Five ? Five : 0;
-        for (int t = n - 1; t >= last; t--)
+        if (n == Five)
         {
-            int row = diagonal + t * n * w;
-            Lane<V> x = Lane<V>.Load(b, at + t * w) * Lane<V>.Load(a, row + t * w);
-            x.Store(b, at + t * w);
-            for (int i = 0; i < t * w; i += w)
+            BackwardFive(a, diagonal, n * w, b, at, count, true);
+            return;
+        }
+
+        int last = n > Five ? Five : 0;
+        for (int end = at + count * n * w; at < end; at += n * w)
+        {
+            int pivot = diagonal;
+            for (int i = 0; i < n * w; i += w, pivot += (n + 1) * w)
             {
-                (Lane<V>.Load(b, at + i) - Lane<V>.Load(a, row + i) * x).Store(b, at + i);
+                (Lane<V>.Load(b, at + i) * Lane<V>.Load(a, pivot)).Store(b, at + i);
+            }
+
+            for (int t = n - 1; t >= last; t--)
+            {
+                int row = diagonal + t * n * w;
+                Lane<V> x = Lane<V>.Load(b, at + t * w);
+                for (int i = 0; i < t * w; i += w)
+                {
+                    (Lane<V>.Load(b, at + i) - Lane<V>.Load(a, row + i) * x).Store(b, at + i);
+                }
+            }
+
+            if (last > 0)
+            {
+                BackwardFive(a, diagonal, n * w, b, at, 1, false);
             }
         }
+    }
 
-        if (n >= Five)
+    // Scales: whether the first five rows of b are still to be multiplied by the inverse pivots.
+    [MethodImpl(MethodImplOptions.NoInlining)]
+    private static void BackwardFive(double[] a, int g, int stride, double[] b, int at, int count, bool scales)
+    {
+        int row1 = g + stride, row2 = row1 + stride, row3 = row2 + stride, row4 = row3 + stride;
+        for (; count > 0; count--, at += stride)
         {
-            BackwardFive(a, diagonal, n * w, b, at);
+            Lane<V> x0 = Lane<V>.Load(b, at), x1 = Lane<V>.Load(b, at, 1), x2 = Lane<V>.Load(b, at, 2), x3 = Lane<V>.Load(b, at, 3), x4 = Lane<V>.Load(b, at, 4);
+            if (scales)
+            {
+                x0 *= Lane<V>.Load(a, g);
+                x1 *= Lane<V>.Load(a, row1, 1);
+                x2 *= Lane<V>.Load(a, row2, 2);
+                x3 *= Lane<V>.Load(a, row3, 3);
+                x4 *= Lane<V>.Load(a, row4, 4);
+                x4.Store(b, at, 4);
+            }
+
+            x3 -= x4 * Lane<V>.Load(a, row4, 3);
+            x3.Store(b, at, 3);
+            x2 = x2 - x4 * Lane<V>.Load(a, row4, 2) - x3 * Lane<V>.Load(a, row3, 2);
+            x2.Store(b, at, 2);
+            x1 = x1 - x4 * Lane<V>.Load(a, row4, 1) - x3 * Lane<V>.Load(a, row3, 1) - x2 * Lane<V>.Load(a, row2, 1);
+            x1.Store(b, at, 1);
+            (x0 - x4 * Lane<V>.Load(a, row4) - x3 * Lane<V>.Load(a, row3) - x2 * Lane<V>.Load(a, row2) - x1 * Lane<V>.Load(a, row1)).Store(b, at);
         }
     }
 
+    // C -= X D^-1 Y^T, X m x n, Y k x n; for Triangle the lower triangle of C -= X D^-1 X^T.
     [MethodImpl(MethodImplOptions.NoInlining)]
-    private static void BackwardFive(double[] a, int g, int stride, double[] b, int at)
-    {
-        g += 4 * stride;
-        Lane<V> x4 = Lane<V>.Load(b, at, 4) * Lane<V>.Load(a, g, 4);
-        x4.Store(b, at, 4);
-        Lane<V> x3 = Lane<V>.Load(b, at, 3) - x4 * Lane<V>.Load(a, g, 3);
-        Lane<V> x2 = Lane<V>.Load(b, at, 2) - x4 * Lane<V>.Load(a, g, 2);
-        Lane<V> x1 = Lane<V>.Load(b, at, 1) - x4 * Lane<V>.Load(a, g, 1);
-        Lane<V> x0 = Lane<V>.Load(b, at) - x4 * Lane<V>.Load(a, g);
-        g -= stride;
-        x3 *= Lane<V>.Load(a, g, 3);
-        x3.Store(b, at, 3);
-        x2 -= x3 * Lane<V>.Load(a, g, 2);
-        x1 -= x3 * Lane<V>.Load(a, g, 1);
-        x0 -= x3 * Lane<V>.Load(a, g);
-        g -= stride;
-        x2 *= Lane<V>.Load(a, g, 2);
-        x2.Store(b, at, 2);
-        x1 -= x2 * Lane<V>.Load(a, g, 1);
-        x0 -= x2 * Lane<V>.Load(a, g);
-        g -= stride;
-        x1 *= Lane<V>.Load(a, g, 1);
-        x1.Store(b, at, 1);
-        x0 -= x1 * Lane<V>.Load(a, g);
-        (x0 * Lane<V>.Load(a, g - stride)).Store(b, at);
-    }
-
-    // C -= X Y^T, X m x n, Y k x n; for Triangle the lower triangle of C -= X X^T.
-    [MethodImpl(MethodImplOptions.NoInlining)]
-    private static void SubtractProduct(double[] b, int c, int x, int m, double[] a, int y, int k, int n)
+    private static void SubtractProduct(double[] a, int c, int x, int m, int y, int k, int n, int diagonal)
     {
         int w = Lane<V>.Width;
         int columns = k == Triangle ? m : k;
         for (int i = 0; i < m; i++, x += n * w, c += columns * w)
         {
             int end = c + (k == Triangle ? i + 1 : k) * w;
+            int pivot = diagonal;
+            int step = (n + 1) * w;
             int t = 0;
             if (n >= Five)
             {
-                Lane<V> x0 = Lane<V>.Load(b, x), x1 = Lane<V>.Load(b, x, 1), x2 = Lane<V>.Load(b, x, 2);
-                Lane<V> x3 = Lane<V>.Load(b, x, 3), x4 = Lane<V>.Load(b, x, 4);
+                Lane<V> x0 = Lane<V>.Load(a, x) * Lane<V>.Load(a, pivot), x1 = Lane<V>.Load(a, x, 1) * Lane<V>.Load(a, pivot + step);
+                Lane<V> x2 = Lane<V>.Load(a, x, 2) * Lane<V>.Load(a, pivot + 2 * step), x3 = Lane<V>.Load(a, x, 3) * Lane<V>.Load(a, pivot + 3 * step);
+                Lane<V> x4 = Lane<V>.Load(a, x, 4) * Lane<V>.Load(a, pivot + 4 * step);
                 int row = y;
                 for (int to = c; to < end; to += w, row += n * w)
                 {
-                    Lane<V> s = Lane<V>.Load(b, to);
-                    s = s - x0 * Lane<V>.Load(a, row) - x1 * Lane<V>.Load(a, row, 1) - x2 * Lane<V>.Load(a, row, 2)
-                        - x3 * Lane<V>.Load(a, row, 3) - x4 * Lane<V>.Load(a, row, 4);
-                    s.Store(b, to);
+                    Lane<V> sum = ((x0 * Lane<V>.Load(a, row) + x1 * Lane<V>.Load(a, row, 1)) + (x2 * Lane<V>.Load(a, row, 2) + x3 * Lane<V>.Load(a, row, 3)))
+                        + x4 * Lane<V>.Load(a, row, 4);
+                    (Lane<V>.Load(a, to) - sum).Store(a, to);
                 }
 
                 t = Five;
@@ -294,33 +322,46 @@ internal static class BlockCholesky<V>
 
             for (; t < n; t++)
             {
-                Lane<V> xt = Lane<V>.Load(b, x + t * w);
+                Lane<V> xt = Lane<V>.Load(a, x + t * w) * Lane<V>.Load(a, pivot + t * step);
                 int cell = y + t * w;
                 for (int to = c; to < end; to += w, cell += n * w)
                 {
-                    (Lane<V>.Load(b, to) - xt * Lane<V>.Load(a, cell)).Store(b, to);
+                    (Lane<V>.Load(a, to) - xt * Lane<V>.Load(a, cell)).Store(a, to);
                 }
             }
         }
     }
 
-    // C += X Y^T, otherwise as above. Negative columns are few.
-    private static void AddProduct(double[] a, int c, int x, int m, int y, int k, int n)
+    // to -= M from, M m x n.
+    [MethodImpl(MethodImplOptions.NoInlining)]
+    private static void SubtractRows(double[] a, int matrix, int m, int n, double[] b, int from, int to)
     {
         int w = Lane<V>.Width;
-        int columns = k == Triangle ? m : k;
-        for (int i = 0; i < m; i++, x += n * w, c += columns * w)
+        int t = 0;
+        if (n >= Five)
         {
-            int end = k == Triangle ? i + 1 : k;
-            for (int j = 0; j < end; j++)
+            Lane<V> x0 = Lane<V>.Load(b, from), x1 = Lane<V>.Load(b, from, 1), x2 = Lane<V>.Load(b, from, 2);
+            Lane<V> x3 = Lane<V>.Load(b, from, 3), x4 = Lane<V>.Load(b, from, 4);
+            int row = matrix;
+            int end = to + m * w;
+            for (int at = to; at < end; at += w, row += n * w)
             {
-                Lane<V> s = Lane<V>.Load(a, c + j * w);
-                for (int t = 0; t < n; t++)
-                {
-                    s += Lane<V>.Load(a, x + t * w) * Lane<V>.Load(a, y + (j * n + t) * w);
-                }
+                Lane<V> sum = ((x0 * Lane<V>.Load(a, row) + x1 * Lane<V>.Load(a, row, 1)) + (x2 * Lane<V>.Load(a, row, 2) + x3 * Lane<V>.Load(a, row, 3)))
+                    + x4 * Lane<V>.Load(a, row, 4);
+                (Lane<V>.Load(b, at) - sum).Store(b, at);
+            }
 
-                s.Store(a, c + j * w);
+            t = Five;
+        }
+
+        for (; t < n; t++)
+        {
+            Lane<V> x = Lane<V>.Load(b, from + t * w);
+            int cell = matrix + t * w;
+            int end = to + m * w;
+            for (int at = to; at < end; at += w, cell += n * w)
+            {
+                (Lane<V>.Load(b, at) - x * Lane<V>.Load(a, cell)).Store(b, at);
             }
         }
     }

@@ -265,8 +265,7 @@ internal sealed class NormalEquations
             for (int i = 0; i < column.Size; i++)
             {
                 // The factor's diagonal is stored inverted.
-                double inverse = _matrix[column.Diagonal + i * (column.Size + 1)];
-                _pivots[column.Row + i] = 1 / (inverse * inverse);
+                _pivots[column.Row + i] = 1 / _matrix[column.Diagonal + i * (column.Size + 1)];
             }
         }
     }

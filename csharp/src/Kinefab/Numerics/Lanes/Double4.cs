@@ -79,6 +79,23 @@ internal readonly struct Double4
         return new(Avx.Permute2x128(ab, cd, 0x20) + y + Avx.Permute2x128(ab, cd, 0x31));
     }
 
+    /// <summary>Whether <see cref="Transpose"/> is there.</summary>
+    public static bool CanTranspose => Avx.IsSupported;
+
+    /// <summary>Rows become columns.</summary>
+    [MethodImpl(MethodImplOptions.AggressiveInlining)]
+    public static void Transpose(ref Double4 a, ref Double4 b, ref Double4 c, ref Double4 d)
+    {
+        Vector256<double> evenAb = Avx.UnpackLow(a._v, b._v);
+        Vector256<double> oddAb = Avx.UnpackHigh(a._v, b._v);
+        Vector256<double> evenCd = Avx.UnpackLow(c._v, d._v);
+        Vector256<double> oddCd = Avx.UnpackHigh(c._v, d._v);
+        a = new(Avx.Permute2x128(evenAb, evenCd, 0x20));
+        b = new(Avx.Permute2x128(oddAb, oddCd, 0x20));
+        c = new(Avx.Permute2x128(evenAb, evenCd, 0x31));
+        d = new(Avx.Permute2x128(oddAb, oddCd, 0x31));
+    }
+
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
     public static Double4 operator +(in Double4 a, in Double4 b) => new(a._v + b._v);
 
@@ -137,6 +154,11 @@ internal readonly struct Double4
         double v = i == 0 ? _x : i == 1 ? _y : i == 2 ? _z : _w;
         return new Double4(v, v, v, v);
     }
+
+    /// <summary>Whether <see cref="Transpose"/> is there: it pays by the processor's own instruction alone.</summary>
+    public static bool CanTranspose => false;
+
+    public static void Transpose(ref Double4 a, ref Double4 b, ref Double4 c, ref Double4 d) => throw new System.NotSupportedException();
 
     /// <summary>Sum of the first three of each.</summary>
     public static Double4 Sums3(Double4 a, Double4 b, Double4 c, Double4 d) => new(a.Sum3, b.Sum3, c.Sum3, d.Sum3);

@@ -4,10 +4,9 @@ namespace Kinefab.Numerics;
 
 /// <summary>
 /// A = L D L^T in place for symmetric block-sparse matrices of one pattern, several at a time in lanes; D is positive for the rows of
-/// positive nodes, negative for those of negative ones. Number i of the pattern stands at i * width in the array. A diagonal block keeps the
-/// factor of its own, T D T^T, its D inverted; below it stands what T leaves of L's columns, so that a node waits for its neighbours
-/// in a solution, but for no other row of its own. The first five rows of a node, those of a hinge, go through registers; the order of
-/// operations is the same for all sizes.
+/// positive nodes, negative for those of negative ones. No roots: next to a division each is the longest wait of the whole factor. Number i of the
+/// pattern stands at i * width in the array. A diagonal block keeps the factor of its own, T D T^T, its D inverted; below it stands L D. The first
+/// five rows of a node, those of a hinge, go through registers; the order of operations is the same for all sizes.
 /// </summary>
 internal static class BlockCholesky<V>
     where V : struct, ILane<V>
@@ -50,11 +49,6 @@ internal static class BlockCholesky<V>
                     SubtractProduct(a, column.Products[product++] * w, x, below[i].Size, below[k].Offset * w, k < i ? below[k].Size : Triangle, n, diagonal);
                 }
             }
-
-            foreach (BlockPattern.Block block in below)
-            {
-                Backward(a, diagonal, a, block.Offset * w, n, block.Size);
-            }
         }
     }
 
@@ -65,13 +59,11 @@ internal static class BlockCholesky<V>
         BlockPattern.Column[] columns = pattern.Columns;
         foreach (BlockPattern.Column column in columns)
         {
+            Forward(a, column.Diagonal * w, b, column.Row * w, column.Size, 1);
             foreach (BlockPattern.Block block in column.Below)
             {
-                SubtractRows(a, block.Offset * w, block.Size, column.Size, b, column.Row * w, block.Row * w);
+                SubtractRows(a, block.Offset * w, block.Size, column.Size, column.Diagonal * w, b, column.Row * w, block.Row * w);
             }
-
-            Forward(a, column.Diagonal * w, b, column.Row * w, column.Size, 1);
-            Backward(a, column.Diagonal * w, b, column.Row * w, column.Size, 1);
         }
 
         for (int turn = columns.Length - 1; turn >= 0; turn--)
@@ -81,6 +73,8 @@ internal static class BlockCholesky<V>
             {
                 SubtractTransposed(a, block.Offset * w, block.Size, column.Size, b, block.Row * w, column.Row * w);
             }
+
+            Backward(a, column.Diagonal * w, b, column.Row * w, column.Size);
         }
     }
 
@@ -228,81 +222,74 @@ internal static class BlockCholesky<V>
         }
     }
 
-    // T^T x = D^-1 b in place, likewise.
-    private static void Backward(double[] a, int diagonal, double[] b, int at, int n, int count)
+    // T^T x = D^-1 b in place.
+    private static void Backward(double[] a, int diagonal, double[] b, int at, int n)
     {
         int w = Lane<V>.Width;
         if (n == Five)
         {
-            BackwardFive(a, diagonal, n * w, b, at, count, true);
+            BackwardFive(a, diagonal, n * w, b, at, true);
             return;
         }
 
-        int last = n > Five ? Five : 0;
-        for (int end = at + count * n * w; at < end; at += n * w)
+        int pivot = diagonal;
+        for (int i = 0; i < n * w; i += w, pivot += (n + 1) * w)
         {
-            int pivot = diagonal;
-            for (int i = 0; i < n * w; i += w, pivot += (n + 1) * w)
-            {
-                (Lane<V>.Load(b, at + i) * Lane<V>.Load(a, pivot)).Store(b, at + i);
-            }
+            (Lane<V>.Load(b, at + i) * Lane<V>.Load(a, pivot)).Store(b, at + i);
+        }
 
-            for (int t = n - 1; t >= last; t--)
+        int last = n > Five ? Five : 0;
+        for (int t = n - 1; t >= last; t--)
+        {
+            int row = diagonal + t * n * w;
+            Lane<V> x = Lane<V>.Load(b, at + t * w);
+            for (int i = 0; i < t * w; i += w)
             {
-                int row = diagonal + t * n * w;
-                Lane<V> x = Lane<V>.Load(b, at + t * w);
-                for (int i = 0; i < t * w; i += w)
-                {
-                    (Lane<V>.Load(b, at + i) - Lane<V>.Load(a, row + i) * x).Store(b, at + i);
-                }
+                (Lane<V>.Load(b, at + i) - Lane<V>.Load(a, row + i) * x).Store(b, at + i);
             }
+        }
 
-            if (last > 0)
-            {
-                BackwardFive(a, diagonal, n * w, b, at, 1, false);
-            }
+        if (last > 0)
+        {
+            BackwardFive(a, diagonal, n * w, b, at, false);
         }
     }
 
-    // Scales: whether the first five rows of b are still to be multiplied by the inverse pivots.
+    // Scales: whether b is still to be multiplied by the inverse pivots.
     [MethodImpl(MethodImplOptions.NoInlining)]
-    private static void BackwardFive(double[] a, int g, int stride, double[] b, int at, int count, bool scales)
+    private static void BackwardFive(double[] a, int g, int stride, double[] b, int at, bool scales)
     {
         int row1 = g + stride, row2 = row1 + stride, row3 = row2 + stride, row4 = row3 + stride;
-        for (; count > 0; count--, at += stride)
+        Lane<V> x0 = Lane<V>.Load(b, at), x1 = Lane<V>.Load(b, at, 1), x2 = Lane<V>.Load(b, at, 2), x3 = Lane<V>.Load(b, at, 3), x4 = Lane<V>.Load(b, at, 4);
+        if (scales)
         {
-            Lane<V> x0 = Lane<V>.Load(b, at), x1 = Lane<V>.Load(b, at, 1), x2 = Lane<V>.Load(b, at, 2), x3 = Lane<V>.Load(b, at, 3), x4 = Lane<V>.Load(b, at, 4);
-            if (scales)
-            {
-                x0 *= Lane<V>.Load(a, g);
-                x1 *= Lane<V>.Load(a, row1, 1);
-                x2 *= Lane<V>.Load(a, row2, 2);
-                x3 *= Lane<V>.Load(a, row3, 3);
-                x4 *= Lane<V>.Load(a, row4, 4);
-                x4.Store(b, at, 4);
-            }
-
-            x3 -= x4 * Lane<V>.Load(a, row4, 3);
-            x3.Store(b, at, 3);
-            x2 = x2 - x4 * Lane<V>.Load(a, row4, 2) - x3 * Lane<V>.Load(a, row3, 2);
-            x2.Store(b, at, 2);
-            x1 = x1 - x4 * Lane<V>.Load(a, row4, 1) - x3 * Lane<V>.Load(a, row3, 1) - x2 * Lane<V>.Load(a, row2, 1);
-            x1.Store(b, at, 1);
-            (x0 - x4 * Lane<V>.Load(a, row4) - x3 * Lane<V>.Load(a, row3) - x2 * Lane<V>.Load(a, row2) - x1 * Lane<V>.Load(a, row1)).Store(b, at);
+            x0 *= Lane<V>.Load(a, g);
+            x1 *= Lane<V>.Load(a, row1, 1);
+            x2 *= Lane<V>.Load(a, row2, 2);
+            x3 *= Lane<V>.Load(a, row3, 3);
+            x4 *= Lane<V>.Load(a, row4, 4);
+            x4.Store(b, at, 4);
         }
+
+        x3 -= x4 * Lane<V>.Load(a, row4, 3);
+        x3.Store(b, at, 3);
+        x2 = x2 - x4 * Lane<V>.Load(a, row4, 2) - x3 * Lane<V>.Load(a, row3, 2);
+        x2.Store(b, at, 2);
+        x1 = x1 - x4 * Lane<V>.Load(a, row4, 1) - x3 * Lane<V>.Load(a, row3, 1) - x2 * Lane<V>.Load(a, row2, 1);
+        x1.Store(b, at, 1);
+        (x0 - x4 * Lane<V>.Load(a, row4) - x3 * Lane<V>.Load(a, row3) - x2 * Lane<V>.Load(a, row2) - x1 * Lane<V>.Load(a, row1)).Store(b, at);
     }
 
     // C -= X D^-1 Y^T, X m x n, Y k x n; for Triangle the lower triangle of C -= X D^-1 X^T.
     [MethodImpl(MethodImplOptions.NoInlining)]
-    private static void SubtractProduct(double[] a, int c, int x, int m, int y, int k, int n, int diagonal)
+    private static void SubtractProduct(double[] a, int c, int x, int m, int y, int k, int n, int pivot)
     {
         int w = Lane<V>.Width;
+        int step = (n + 1) * w;
         int columns = k == Triangle ? m : k;
         for (int i = 0; i < m; i++, x += n * w, c += columns * w)
         {
             int end = c + (k == Triangle ? i + 1 : k) * w;
-            int pivot = diagonal;
-            int step = (n + 1) * w;
             int t = 0;
             if (n >= Five)
             {
@@ -332,16 +319,18 @@ internal static class BlockCholesky<V>
         }
     }
 
-    // to -= M from, M m x n.
+    // to -= M D^-1 from, M m x n.
     [MethodImpl(MethodImplOptions.NoInlining)]
-    private static void SubtractRows(double[] a, int matrix, int m, int n, double[] b, int from, int to)
+    private static void SubtractRows(double[] a, int matrix, int m, int n, int pivot, double[] b, int from, int to)
     {
         int w = Lane<V>.Width;
+        int step = (n + 1) * w;
         int t = 0;
         if (n >= Five)
         {
-            Lane<V> x0 = Lane<V>.Load(b, from), x1 = Lane<V>.Load(b, from, 1), x2 = Lane<V>.Load(b, from, 2);
-            Lane<V> x3 = Lane<V>.Load(b, from, 3), x4 = Lane<V>.Load(b, from, 4);
+            Lane<V> x0 = Lane<V>.Load(b, from) * Lane<V>.Load(a, pivot), x1 = Lane<V>.Load(b, from, 1) * Lane<V>.Load(a, pivot + step);
+            Lane<V> x2 = Lane<V>.Load(b, from, 2) * Lane<V>.Load(a, pivot + 2 * step), x3 = Lane<V>.Load(b, from, 3) * Lane<V>.Load(a, pivot + 3 * step);
+            Lane<V> x4 = Lane<V>.Load(b, from, 4) * Lane<V>.Load(a, pivot + 4 * step);
             int row = matrix;
             int end = to + m * w;
             for (int at = to; at < end; at += w, row += n * w)
@@ -356,7 +345,7 @@ internal static class BlockCholesky<V>
 
         for (; t < n; t++)
         {
-            Lane<V> x = Lane<V>.Load(b, from + t * w);
+            Lane<V> x = Lane<V>.Load(b, from + t * w) * Lane<V>.Load(a, pivot + t * step);
             int cell = matrix + t * w;
             int end = to + m * w;
             for (int at = to; at < end; at += w, cell += n * w)

@@ -20,6 +20,7 @@ internal sealed class Workspace<V>
         }
 
         Response = new double[3 * sides * w];
+        Turns = new double[4 * BodyLanes.Count];
         Error = new double[rows * w];
         LastError = new double[rows * w];
         Solution = new double[rows * w];
@@ -48,6 +49,9 @@ internal sealed class Workspace<V>
 
     /// <summary>Angular J times the inverse inertia, as <see cref="LaneRecords{V}.Angular"/>.</summary>
     public double[] Response { get; }
+
+    /// <summary>A body's record in four lanes, for four bodies of one island that turn side by side.</summary>
+    public double[] Turns { get; }
 
     /// <summary>C at the end of the drift, and one iteration before.</summary>
     public double[] Error { get; }

@@ -18,6 +18,10 @@ internal static class FreeMotion<V>
     // Largest error of a quaternion's square.
     private const double MostStretch = 1e-3;
 
+    // Bodies of one island that turn side by side, and fewer of them for which it pays.
+    private const int Together = 4;
+    private const int LeastTogether = 3;
+
     /// <summary>Moves all moving bodies from X, Q to EndX, EndQ and fills R; and W with their mean rates, where scalar rows need them.</summary>
     public static void Drift(LaneRecords<V> batch, double h)
     {
@@ -28,7 +32,21 @@ internal static class FreeMotion<V>
             int o = LaneRecords<V>.Body(body, 0);
             LaneVector<V> x = LaneVector<V>.Load(a, o, BodyLanes.X);
             (x + step * LaneVector<V>.Load(a, o, BodyLanes.V)).Store(a, o, BodyLanes.EndX);
-            Rotate(a, o, h, batch.Shape.RotationSplittings[body]);
+        }
+
+        RotationSplitting[] spins = batch.Shape.RotationSplittings;
+        for (int body = 0; body < batch.Shape.MovingBodies; body++)
+        {
+            int alike = CountAlike(spins, body, batch.Shape.MovingBodies);
+            if (alike >= LeastTogether)
+            {
+                RotateTogether(a, body, alike, h, spins[body], batch.Work.Turns);
+                body += alike - 1;
+            }
+            else
+            {
+                Rotate(a, LaneRecords<V>.Body(body, 0), h, spins[body]);
+            }
         }
 
         foreach (int body in batch.Shape.MeanRateBodies)
@@ -115,9 +133,73 @@ internal static class FreeMotion<V>
         return Lane<V>.Splat(0.5) * inverse * Lane<V>.Sqrt(LaneVector<V>.Dot(momentum, momentum));
     }
 
+    // Up to so many bodies from one on that turn by the same formulas and may do so side by side: on the only lane, if the processor has others.
+    private static int CountAlike(RotationSplitting[] spins, int first, int count)
+    {
+        if (Lane<V>.Width > 1 || !Double4.CanTranspose)
+        {
+            return 1;
+        }
+
+        int alike = 1;
+        while (alike < Together && first + alike < count && spins[first + alike].Equals(spins[first]))
+        {
+            alike++;
+        }
+
+        return alike;
+    }
+
+    // Fewer than four are joined by copies of the last.
+    private static void RotateTogether(double[] a, int first, int count, double h, RotationSplitting spin, double[] turns)
+    {
+        int o0 = LaneRecords<V>.Body(first, 0);
+        int o1 = LaneRecords<V>.Body(first + Math.Min(1, count - 1), 0);
+        int o2 = LaneRecords<V>.Body(first + Math.Min(2, count - 1), 0);
+        int o3 = LaneRecords<V>.Body(first + count - 1, 0);
+        Gather(a, o0, o1, o2, o3, BodyLanes.L, turns);
+        Gather(a, o0, o1, o2, o3, BodyLanes.Q + 1, turns);
+        Gather(a, o0, o1, o2, o3, BodyLanes.InverseInertia, turns);
+#if NET
+        FreeMotion<Lane4>.Rotate(turns, 0, h, spin);
+#endif
+        Scatter(turns, BodyLanes.EndQ, a, o0, o1, o2, o3);
+        Scatter(turns, BodyLanes.R, a, o0, o1, o2, o3);
+        Scatter(turns, BodyLanes.R + 4, a, o0, o1, o2, o3);
+        const int last = BodyLanes.R + 8;
+        a[o0 + last] = turns[Together * last];
+        a[o1 + last] = turns[Together * last + 1];
+        a[o2 + last] = turns[Together * last + 2];
+        a[o3 + last] = turns[Together * last + 3];
+    }
+
+    // Four numbers of each body, from a slot on, as a record in lanes has them.
+    [MethodImpl(MethodImplOptions.AggressiveInlining)]
+    private static void Gather(double[] a, int o0, int o1, int o2, int o3, int slot, double[] turns)
+    {
+        Double4 x = Double4.Load(a, o0 + slot), y = Double4.Load(a, o1 + slot), z = Double4.Load(a, o2 + slot), w = Double4.Load(a, o3 + slot);
+        Double4.Transpose(ref x, ref y, ref z, ref w);
+        x.Store(turns, Together * slot);
+        y.Store(turns, Together * (slot + 1));
+        z.Store(turns, Together * (slot + 2));
+        w.Store(turns, Together * (slot + 3));
+    }
+
+    [MethodImpl(MethodImplOptions.AggressiveInlining)]
+    private static void Scatter(double[] turns, int slot, double[] a, int o0, int o1, int o2, int o3)
+    {
+        Double4 x = Double4.Load(turns, Together * slot), y = Double4.Load(turns, Together * (slot + 1));
+        Double4 z = Double4.Load(turns, Together * (slot + 2)), w = Double4.Load(turns, Together * (slot + 3));
+        Double4.Transpose(ref x, ref y, ref z, ref w);
+        x.Store(a, o0 + slot);
+        y.Store(a, o1 + slot);
+        z.Store(a, o2 + slot);
+        w.Store(a, o3 + slot);
+    }
+
     // Body axes are taken in the cyclic order that puts the sphere's axis last; a cyclic relabelling of the world's axes too
     // leaves all formulas as they are. Each turn is a method of its own, small enough that the compiler inlines its arithmetic.
-    private static void Rotate(double[] a, int o, double h, RotationSplitting spin)
+    internal static void Rotate(double[] a, int o, double h, RotationSplitting spin)
     {
         RotateSpherical(a, o, h / 2, spin.Spherical);
         if (spin.IsBDistinct)

@@ -78,8 +78,8 @@ public static class ArticulatedScene
         return ParentsFirst.Of(document with
         {
             GameObjects = objects,
-            Couplings = Couplings(tree, document.Couplings, moved, components.Keys, findings),
-            Animations = Clips(document, components.Keys, findings),
+            Couplings = Couplings(tree, document.Couplings, moved, components, findings),
+            Animations = Clips(document, components, findings),
             Report = told.Left,
         });
     }
@@ -195,7 +195,7 @@ public static class ArticulatedScene
     }
 
     // Between the same motions: a link's coordinates count as those of the joint that it stands for.
-    private static List<Coupling> Couplings(LinkTree tree, IReadOnlyList<Coupling> couplings, Dictionary<JointPlace, JointCoordinate> moved, ICollection<int> links, List<Diagnostic> findings)
+    private static List<Coupling> Couplings(LinkTree tree, IReadOnlyList<Coupling> couplings, Dictionary<JointPlace, JointCoordinate> moved, Dictionary<int, List<Component>> links, List<Diagnostic> findings)
     {
         JointPlace? missing = null;
         JointCoordinate Now(JointCoordinate at)
@@ -207,7 +207,7 @@ public static class ArticulatedScene
                 return at;
             }
 
-            bool isTurn = links.Contains(place.GameObject) && at.Coordinate == Coordinate.Angle;
+            bool isTurn = links.ContainsKey(place.GameObject) && at.Coordinate == Coordinate.Angle;
             return place with { Coordinate = isTurn ? Coordinate.AngularX : at.Coordinate };
         }
 
@@ -226,7 +226,7 @@ public static class ArticulatedScene
     }
 
     // Without what moves links: no Transform moves them, and they stand below other objects now.
-    private static List<AnimationClip> Clips(SceneDocument document, ICollection<int> links, List<Diagnostic> findings)
+    private static List<AnimationClip> Clips(SceneDocument document, Dictionary<int, List<Component>> links, List<Diagnostic> findings)
     {
         var found = new List<AnimationClip>();
         for (int c = 0; c < document.Animations.Count; c++)
@@ -235,7 +235,7 @@ public static class ArticulatedScene
             var left = new List<AnimationTrack>();
             foreach (AnimationTrack track in clip.Tracks)
             {
-                if (links.Contains(track.GameObject))
+                if (links.ContainsKey(track.GameObject))
                     findings.Add(LinkLosses.Dropped($"clip {clip.Name} of {document.GameObjects[track.GameObject].Id}", "an animation of a link", $"/animations/{c}"));
                 else
                     left.Add(track);

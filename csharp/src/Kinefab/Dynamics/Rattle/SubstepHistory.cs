@@ -3,9 +3,9 @@ namespace Kinefab.Dynamics.Rattle;
 /// <summary>How often an island's steps are halved, kept from step to step.</summary>
 internal struct SubstepHistory
 {
-    // Steps in which by its demand a quarter as many parts would have done, after which it is cut into half as many.
+    // Steps in which by its demand an eighth as many parts would have done, after which it is cut into half as many.
     private const int CalmSteps = 15;
-    private const int Margin = 4;
+    private const int Margin = 8;
 
     private int _calm;
 

@@ -25,6 +25,18 @@ internal enum AngularForm : byte
     Prepared,
 }
 
+/// <summary>How limits are watched that have no row in lanes.</summary>
+internal enum WatchForm : byte
+{
+    None,
+
+    /// <summary>Two ends of the turn of a hinge about X.</summary>
+    Twist,
+
+    /// <summary>Whatever <see cref="JointModel.PrepareForces"/> writes.</summary>
+    Prepared,
+}
+
 /// <summary>What is known of a row's linear part before any pose is.</summary>
 internal enum RowClass : byte
 {
@@ -81,10 +93,18 @@ internal sealed class RowBlock
     /// <summary>Whether it is an anchor (all linear axes locked) with angular rows in closed form and nothing else, as a hinge is.</summary>
     public readonly bool IsPointJoint;
 
+    /// <summary>Of a block without its limits' rows: how to tell when they are reached.</summary>
+    public readonly WatchForm Watch;
+
     /// <summary>For a coupling, which of Bodies are actor 0 and 1 of the joint of each of its coordinates.</summary>
     public readonly int[] CouplingSides = System.Array.Empty<int>();
 
     public RowBlock(JointModel joint, int index, int[] bodies)
+        : this(joint, index, bodies, true)
+    {
+    }
+
+    private RowBlock(JointModel joint, int index, int[] bodies, bool hasLimits)
     {
         Joint = joint;
         Index = index;
@@ -102,9 +122,11 @@ internal sealed class RowBlock
             _ => AngularForm.Prepared,
         };
         Drives = layout.Drives;
-        HasCone = layout.HasCone;
-        AngleLimits = layout.SwingLimits + layout.TwistLimits;
-        HasDistance = layout.HasDistance;
+        HasCone = hasLimits && layout.HasCone;
+        AngleLimits = hasLimits ? layout.SwingLimits + layout.TwistLimits : 0;
+        HasDistance = hasLimits && layout.HasDistance;
+        bool isHinge = layout.Limits == layout.TwistLimits && Angular == AngularForm.HingeX;
+        Watch = hasLimits || layout.Limits == 0 ? WatchForm.None : isHinge ? WatchForm.Twist : WatchForm.Prepared;
 
         for (int axis = 0; axis < 3; axis++)
         {
@@ -189,13 +211,25 @@ internal sealed class RowBlock
     /// <summary>Whether prepared rows are worth a second look at the end of the drift; a hinge's axis on the world stays.</summary>
     public bool HasMovingRows => Angular == AngularForm.Prepared || Limits > 0 || (Drives > 0 && !(Joint is RevoluteJoint && Joint.Body0 == JointModel.World));
 
+    /// <summary>The joint's block without the rows of its limits.</summary>
+    public RowBlock WithoutLimits() => Limits == 0 ? this : new RowBlock(Joint!, Index, Bodies, false);
+
     /// <summary>Whether the other block has the same rows between the same bodies.</summary>
     public bool HasShapeOf(RowBlock other)
     {
-        if (Bodies.Length != other.Bodies.Length || LinearMask != other.LinearMask || Angular != other.Angular
-            || IsAssembled || other.IsAssembled)
+        if (Bodies.Length != other.Bodies.Length || LinearMask != other.LinearMask || Angular != other.Angular || Watch != other.Watch
+            || Coupling != null || other.Coupling != null || Drives != other.Drives || HasCone != other.HasCone || AngleLimits != other.AngleLimits
+            || HasDistance != other.HasDistance || HasMovingRows != other.HasMovingRows)
         {
             return false;
+        }
+
+        for (int i = 0; i < Classes.Length; i++)
+        {
+            if (Classes[i] != other.Classes[i])
+            {
+                return false;
+            }
         }
 
         for (int i = 0; i < Bodies.Length; i++)

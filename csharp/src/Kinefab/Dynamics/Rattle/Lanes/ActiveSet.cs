@@ -84,7 +84,7 @@ internal sealed partial class ActiveSet<V>
 
             scalar.StartSpeed = StartSpeed(scalar);
             double response = Response(scalar);
-            scalar.SetBounds(h, _batch.Shape.Blocks[scalar.Block].Joint!.DriveLimitsAreForces);
+            scalar.SetBounds(h, _batch.Models[scalar.Block]!.DriveLimitsAreForces);
             if (scalar.Kind == RowKind.Motion)
             {
                 scalar.SetMotion(h, response);

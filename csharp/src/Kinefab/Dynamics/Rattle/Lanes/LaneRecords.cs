@@ -1,4 +1,5 @@
 using System;
+using Kinefab.Joints;
 using Kinefab.Numerics;
 
 namespace Kinefab.Dynamics.Rattle;
@@ -23,6 +24,8 @@ internal class LaneRecords<V>
         Compliance = new double[shape.RowCount * w];
         Members = new int[shape.Bodies.Length * w];
         JointMembers = new int[shape.Blocks.Length * w];
+        Models = new JointModel?[shape.Blocks.Length * w];
+        Couplings = new CoordinateCoupling?[shape.Blocks.Length * w];
         Bodies = new double[shape.Bodies.Length * BodyLanes.Count * w];
         Joints = new double[shape.Blocks.Length * JointCount * w];
         RowOffsets = new int[shape.Blocks.Length];
@@ -53,6 +56,11 @@ internal class LaneRecords<V>
 
     /// <summary>Joint of block n of a lane in the mechanism, at n * Width + lane; not set for couplings.</summary>
     public int[] JointMembers { get; }
+
+    /// <summary>The joint, or the coupling, that a lane has as block n, at n * Width + lane.</summary>
+    public JointModel?[] Models { get; }
+
+    public CoordinateCoupling?[] Couplings { get; }
 
     /// <summary>Records of <see cref="BodyLanes"/>.</summary>
     public double[] Bodies { get; }

@@ -46,6 +46,8 @@ internal static class LaneTransfer<V>
         for (int n = 0; n < island.Blocks.Length; n++)
         {
             JointModel? joint = island.Blocks[n].Joint;
+            batch.Models[n * Lane<V>.Width + lane] = joint;
+            batch.Couplings[n * Lane<V>.Width + lane] = island.Blocks[n].Coupling;
             if (joint != null)
             {
                 batch.JointMembers[n * Lane<V>.Width + lane] = island.Blocks[n].Index;
@@ -146,7 +148,7 @@ internal static class LaneTransfer<V>
     /// <summary>A lane's state at the end of a step, and the guess it leaves for the next, into another batch's lane.</summary>
     public static void CopyLane(LaneRecords<V> batch, int lane, LaneRecords<ScalarLane> from)
     {
-        for (int b = 0; b < batch.Shape.MovingBodies; b++)
+        for (int b = 0; b < batch.Shape.Bodies.Length; b++)
         {
             int to = LaneRecords<V>.Body(b, 0) + lane;
             int source = LaneRecords<ScalarLane>.Body(b, 0);
@@ -156,10 +158,35 @@ internal static class LaneTransfer<V>
             }
         }
 
-        for (int i = 0; i < from.VelocityImpulses.Length; i++)
+        for (int n = 0; n < batch.Shape.Blocks.Length; n++)
         {
-            batch.VelocityImpulses[i * Lane<V>.Width + lane] = from.VelocityImpulses[i];
-            batch.Work.TotalImpulses[i * Lane<V>.Width + lane] = from.Work.TotalImpulses[i];
+            int row = from.Shape.Pattern.Rows[n];
+            int at = batch.Shape.Pattern.Rows[n] * Lane<V>.Width + lane;
+            for (int i = 0; i < batch.Shape.Blocks[n].Rows; i++, at += Lane<V>.Width)
+            {
+                batch.VelocityImpulses[at] = from.VelocityImpulses[row + i];
+                batch.Work.TotalImpulses[at] = from.Work.TotalImpulses[row + i];
+            }
+        }
+    }
+
+    /// <summary>The guess that a lane's last step has left, into a batch that may have more rows.</summary>
+    public static void CopyGuess(LaneRecords<V> batch, int lane, LaneRecords<ScalarLane> to)
+    {
+        Array.Clear(to.VelocityImpulses, 0, to.VelocityImpulses.Length);
+        for (int n = 0; n < batch.Shape.Blocks.Length; n++)
+        {
+            int row = to.Shape.Pattern.Rows[n];
+            int at = batch.Shape.Pattern.Rows[n] * Lane<V>.Width + lane;
+            for (int i = 0; i < batch.Shape.Blocks[n].Rows; i++, at += Lane<V>.Width)
+            {
+                to.VelocityImpulses[row + i] = batch.VelocityImpulses[at];
+            }
+        }
+
+        for (int body = 0; body < to.Shape.MovingBodies; body++)
+        {
+            to.Bodies[LaneRecords<ScalarLane>.Body(body, BodyLanes.Stiffness)] = batch.Bodies[LaneRecords<V>.Body(body, BodyLanes.Stiffness) + lane];
         }
     }
 
@@ -293,6 +320,10 @@ internal static class LaneTransfer<V>
         Write(a, index + 6 * Lane<V>.Width, frame.Rotation * Vector3d.UnitY);
         Write(a, index + 9 * Lane<V>.Width, frame.Rotation * Vector3d.UnitZ);
     }
+
+    /// <summary>A lane's pose of a body at the end of the drift.</summary>
+    public static Pose ReadPose(LaneRecords<V> batch, int body, int lane) => new(
+        ReadVector(batch.Bodies, LaneRecords<V>.Body(body, BodyLanes.EndX) + lane), ReadQuaternion(batch.Bodies, LaneRecords<V>.Body(body, BodyLanes.EndQ) + lane));
 
     /// <summary>Writes a lane's numbers; the index is that of the first of them.</summary>
     [MethodImpl(MethodImplOptions.AggressiveInlining)]

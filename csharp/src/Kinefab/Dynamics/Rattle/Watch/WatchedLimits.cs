@@ -1,0 +1,171 @@
+using System;
+using System.Runtime.CompilerServices;
+using Kinefab.Joints;
+using Kinefab.Numerics;
+
+namespace Kinefab.Dynamics.Rattle;
+
+/// <summary>
+/// The limits of islands that are stepped without their rows: while none is reached, those do nothing. A lane whose pose at the start of a step is at
+/// a limit, or whose drift would end beyond one, leaves the lanes for that step.
+/// </summary>
+internal sealed class WatchedLimits<V>
+    where V : struct, ILane<V>
+{
+    // Tolerances by which the end of a drift may be past a limit, as in Substep.
+    private const double MostPassed = 1;
+
+    private readonly Island _shape;
+    private readonly ConstraintRow[] _rows = new ConstraintRow[JointModel.MaxRows];
+
+    // Cosine and sine of the turn of each watched hinge, then the turn itself, radians.
+    private readonly double[] _turns;
+
+    private WatchedLimits(Island shape)
+    {
+        _shape = shape;
+        _turns = new double[2 * shape.Blocks.Length * Lane<V>.Width];
+    }
+
+    /// <summary>Those of a shape; null where none has to be watched.</summary>
+    public static WatchedLimits<V>? Of(Island shape) =>
+        Array.Exists(shape.Blocks, block => block.Watch != WatchForm.None) ? new WatchedLimits<V>(shape) : null;
+
+    /// <summary>Whether a lane stands at a limit, so that its row may act from the start of the step on.</summary>
+    /// <param name="batch">Placed at the start pose.</param>
+    /// <param name="lane">The lane.</param>
+    /// <param name="tolerance">Largest C, m or rad.</param>
+    public bool IsReached(LaneBatch<V> batch, int lane, double tolerance)
+    {
+        double reach = ActiveSet<V>.Reach * tolerance;
+        for (int n = 0; n < _shape.Blocks.Length; n++)
+        {
+            WatchForm form = _shape.Blocks[n].Watch;
+            if (form == WatchForm.None)
+            {
+                continue;
+            }
+
+            // Where nobody has moved the bodies the joint knows its turn from the end of the last step.
+            JointModel joint = batch.Models[n * Lane<V>.Width + lane]!;
+            bool isKnown = form == WatchForm.Twist && batch.Work.Moved[lane] == 0;
+            if (!((isKnown ? LeftOf(joint, joint.LastTwist) : LeastLeft(batch, n, joint, lane)) > reach))
+            {
+                return true;
+            }
+        }
+
+        return false;
+    }
+
+    /// <summary>Finds the turns of all lanes at the end of the drift.</summary>
+    public void Measure(LaneBatch<V> batch)
+    {
+        for (int n = 0; n < _shape.Blocks.Length; n++)
+        {
+            if (_shape.Blocks[n].Watch == WatchForm.Twist)
+            {
+                MeasureTurn(batch, n);
+            }
+        }
+    }
+
+    /// <summary>Whether the drift of a lane ended beyond a limit, after <see cref="Measure"/>.</summary>
+    /// <param name="batch">Placed at the end of the drift.</param>
+    /// <param name="lane">The lane.</param>
+    /// <param name="tolerance">Largest C, m or rad.</param>
+    public bool IsPassed(LaneBatch<V> batch, int lane, double tolerance)
+    {
+        int w = Lane<V>.Width;
+        for (int n = 0; n < _shape.Blocks.Length; n++)
+        {
+            WatchForm form = _shape.Blocks[n].Watch;
+            if (form == WatchForm.None)
+            {
+                continue;
+            }
+
+            JointModel joint = batch.Models[n * w + lane]!;
+            double left;
+            if (form == WatchForm.Twist)
+            {
+                ref double turn = ref _turns[2 * n * w + lane];
+                turn = SwingTwist.Nearest(Trigonometry.Atan2(_turns[(2 * n + 1) * w + lane], turn), joint.LastTwist);
+                left = LeftOf(joint, turn);
+            }
+            else
+            {
+                left = LeastLeft(batch, n, joint, lane);
+            }
+
+            if (!(left >= -MostPassed * tolerance))
+            {
+                return true;
+            }
+        }
+
+        return false;
+    }
+
+    /// <summary>Notes the angles that a lane has reached by the step, after <see cref="IsPassed"/>.</summary>
+    public void FinishAngles(LaneBatch<V> batch, int lane)
+    {
+        int w = Lane<V>.Width;
+        for (int n = 0; n < _shape.Blocks.Length; n++)
+        {
+            RowBlock block = _shape.Blocks[n];
+            JointModel joint = batch.Models[n * w + lane]!;
+            if (block.Watch == WatchForm.Twist)
+            {
+                joint.LastTwist = _turns[2 * n * w + lane];
+            }
+            else if (block.Watch == WatchForm.Prepared)
+            {
+                joint.FinishTwist(LaneTransfer<V>.ReadPose(batch, block.Bodies[0], lane), LaneTransfer<V>.ReadPose(batch, block.Bodies[1], lane));
+            }
+        }
+    }
+
+    private static double LeftOf(JointModel joint, double turn)
+    {
+        ref readonly AngularLimit limit = ref joint is RevoluteJoint hinge ? ref hinge.Limit : ref ((D6Joint)joint).TwistLimit;
+        return Math.Min(turn - limit.Lower, limit.Upper - turn);
+    }
+
+    // The least C of its limits by the joint's own rows.
+    private double LeastLeft(LaneBatch<V> batch, int n, JointModel joint, int lane)
+    {
+        RowBlock block = _shape.Blocks[n];
+        int count = joint.PrepareForces(LaneTransfer<V>.ReadPose(batch, block.Bodies[0], lane), LaneTransfer<V>.ReadPose(batch, block.Bodies[1], lane), _rows);
+        double least = double.PositiveInfinity;
+        for (int i = 0; i < count; i++)
+        {
+            least = _rows[i].Has(RowFlags.Limit) ? Math.Min(least, _rows[i].GeometricError) : least;
+        }
+
+        return least;
+    }
+
+    // y1 of frame 1 in frame 0: (cosine, sine) along y0 and z0.
+    [MethodImpl(MethodImplOptions.NoInlining)]
+    private void MeasureTurn(LaneBatch<V> batch, int n)
+    {
+        int w = Lane<V>.Width;
+        int body = _shape.Blocks[n].Bodies[1];
+        int axis = LaneBatch<V>.WorldFrame(0);
+        LaneVector<V> y0 = LaneVector<V>.Load(batch.Joints, LaneBatch<V>.Joint(n, axis + 6));
+        LaneVector<V> z0 = LaneVector<V>.Load(batch.Joints, LaneBatch<V>.Joint(n, axis + 9));
+        LaneVector<V> y1 = LaneVector<V>.Load(batch.Joints, LaneBatch<V>.Joint(n, LaneBatch<V>.Frame(1) + 6));
+        if (!_shape.IsStatic[body])
+        {
+            int r = LaneBatch<V>.Body(body, BodyLanes.R);
+            y1 = new LaneVector<V>(
+                LaneVector<V>.Dot(LaneVector<V>.Load(batch.Bodies, r), y1),
+                LaneVector<V>.Dot(LaneVector<V>.Load(batch.Bodies, r, 3), y1),
+                LaneVector<V>.Dot(LaneVector<V>.Load(batch.Bodies, r, 6), y1));
+        }
+
+        LaneVector<V>.Dot(y0, y1).Store(_turns, 2 * n * w);
+        LaneVector<V>.Dot(z0, y1).Store(_turns, (2 * n + 1) * w);
+    }
+}

@@ -97,7 +97,7 @@ internal sealed class LaneIslandGroup<V> : IslandGroup
             int occupied = Math.Min(Lane<V>.Width, _islands.Length - i * Lane<V>.Width);
             LaneTransfer<V>.Scatter(batch, occupied, _mechanism);
             Reactions<V>.Report(batch, occupied, _mechanism, dt);
-            for (int lane = 0; lane < occupied && _limits != null; lane++)
+            for (int lane = 0; lane < occupied; lane++)
             {
                 FinishLane(batch, i, lane);
             }
@@ -134,6 +134,7 @@ internal sealed class LaneIslandGroup<V> : IslandGroup
         }
 
         LaneTransfer<V>.BeginStep(batch);
+        CoupledTurns<V>.Gather(batch);
         for (int lane = 0; lane < Lane<V>.Width; lane++)
         {
             double stiffest = 0;
@@ -193,8 +194,12 @@ internal sealed class LaneIslandGroup<V> : IslandGroup
     {
         if (!_isAlone[lane])
         {
-            _limits!.FinishAngles(batch, lane);
-            _memories[index * Lane<V>.Width + lane].Forget();
+            CoupledTurns<V>.Finish(batch, lane);
+            if (_limits != null)
+            {
+                _limits.FinishAngles(batch, lane);
+                _memories[index * Lane<V>.Width + lane].Forget();
+            }
         }
     }
 

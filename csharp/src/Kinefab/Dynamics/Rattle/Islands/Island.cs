@@ -199,7 +199,7 @@ internal sealed class Island
             return this;
         }
 
-        RowBlock[] plain = Array.ConvertAll(Blocks, block => block.WithoutLimits());
+        RowBlock[] plain = Array.ConvertAll(Blocks, block => block.InLanes(Blocks));
         return Array.Exists(plain, block => block.IsAssembled || block.Rows == 0) ? null : new Island(Bodies, MovingBodies, plain, _inverseInertias) { Loops = Loops };
     }
 

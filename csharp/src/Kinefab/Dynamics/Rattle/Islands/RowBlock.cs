@@ -1,3 +1,4 @@
+using System;
 using System.Collections.Generic;
 using Kinefab.Joints;
 using Kinefab.Numerics;
@@ -97,7 +98,7 @@ internal sealed class RowBlock
     public readonly WatchForm Watch;
 
     /// <summary>For a coupling, which of Bodies are actor 0 and 1 of the joint of each of its coordinates.</summary>
-    public readonly int[] CouplingSides = System.Array.Empty<int>();
+    public readonly int[] CouplingSides = Array.Empty<int>();
 
     public RowBlock(JointModel joint, int index, int[] bodies)
         : this(joint, index, bodies, true)
@@ -109,6 +110,7 @@ internal sealed class RowBlock
         Joint = joint;
         Index = index;
         Bodies = bodies;
+        Coupled = Array.Empty<int>();
         var classes = new List<RowClass>();
         RowLayout layout = joint.Layout();
         LinearMask = layout.Locked & 0b111;
@@ -164,8 +166,17 @@ internal sealed class RowBlock
         IsPointJoint = LinearMask == 7 && !HasGeneralRows && Angular != AngularForm.Prepared;
     }
 
+    /// <summary>Of a coupling that has its row in lanes, the blocks of its hinges; else empty.</summary>
+    public readonly int[] Coupled;
+
     public RowBlock(CoordinateCoupling coupling, int index, int[] bodies, int[] sides)
+        : this(coupling, index, bodies, sides, Array.Empty<int>())
     {
+    }
+
+    private RowBlock(CoordinateCoupling coupling, int index, int[] bodies, int[] sides, int[] coupled)
+    {
+        Coupled = coupled;
         Coupling = coupling;
         Index = index;
         Bodies = bodies;
@@ -206,19 +217,30 @@ internal sealed class RowBlock
     public int Rows => Classes.Length;
 
     /// <summary>Whether some rows come from the joint's or coupling's own Prepare, one mechanism at a time.</summary>
-    public bool IsAssembled => Coupling != null || ScalarCount > 0 || Angular == AngularForm.Prepared;
+    public bool IsAssembled => (Coupling != null && Coupled.Length == 0) || ScalarCount > 0 || Angular == AngularForm.Prepared;
 
     /// <summary>Whether prepared rows are worth a second look at the end of the drift; a hinge's axis on the world stays.</summary>
     public bool HasMovingRows => Angular == AngularForm.Prepared || Limits > 0 || (Drives > 0 && !(Joint is RevoluteJoint && Joint.Body0 == JointModel.World));
 
-    /// <summary>The joint's block without the rows of its limits.</summary>
-    public RowBlock WithoutLimits() => Limits == 0 ? this : new RowBlock(Joint!, Index, Bodies, false);
+    /// <summary>The block as it stands in lanes: without the rows of its limits; a coupling of hinges with the blocks of these.</summary>
+    /// <param name="blocks">Of its island.</param>
+    public RowBlock InLanes(RowBlock[] blocks)
+    {
+        if (Coupling is null)
+        {
+            return Limits == 0 ? this : new RowBlock(Joint!, Index, Bodies, false);
+        }
+
+        int[] coupled = Array.ConvertAll(
+            Coupling.Coordinates, c => c.Axis == CoordinateAxis.AngularX ? Array.FindIndex(blocks, block => block.Joint == c.Joint && block.Angular == AngularForm.HingeX) : -1);
+        return Array.IndexOf(coupled, -1) >= 0 ? this : new RowBlock(Coupling, Index, Bodies, CouplingSides, coupled);
+    }
 
     /// <summary>Whether the other block has the same rows between the same bodies.</summary>
     public bool HasShapeOf(RowBlock other)
     {
         if (Bodies.Length != other.Bodies.Length || LinearMask != other.LinearMask || Angular != other.Angular || Watch != other.Watch
-            || Coupling != null || other.Coupling != null || Drives != other.Drives || HasCone != other.HasCone || AngleLimits != other.AngleLimits
+            || !HasSame(CouplingSides, other.CouplingSides) || !HasSame(Coupled, other.Coupled) || (Coupling is null) != (other.Coupling is null) || Drives != other.Drives || HasCone != other.HasCone || AngleLimits != other.AngleLimits
             || HasDistance != other.HasDistance || HasMovingRows != other.HasMovingRows)
         {
             return false;
@@ -232,14 +254,8 @@ internal sealed class RowBlock
             }
         }
 
-        for (int i = 0; i < Bodies.Length; i++)
-        {
-            if (Bodies[i] != other.Bodies[i])
-            {
-                return false;
-            }
-        }
-
-        return true;
+        return HasSame(Bodies, other.Bodies);
     }
+
+    private static bool HasSame(int[] a, int[] b) => a.AsSpan().SequenceEqual(b);
 }

@@ -14,6 +14,9 @@ internal class LaneRecords<V>
     /// <summary>Numbers of a joint: see <see cref="Frame"/> and <see cref="WorldFrame"/>.</summary>
     public const int JointCount = 48;
 
+    /// <summary>Numbers of a coordinate in <see cref="Turns"/>.</summary>
+    public const int TurnCount = 5;
+
     /// <param name="shape">What all its islands look like.</param>
     /// <param name="workspace">Arrays that hold nothing from step to step, shared by the batches of a shape.</param>
     public LaneRecords(Island shape, Workspace<V> workspace)
@@ -36,6 +39,16 @@ internal class LaneRecords<V>
             sides += shape.Blocks[n].Rows * shape.Blocks[n].Bodies.Length;
         }
 
+        TurnOffsets = new int[shape.Blocks.Length];
+        int turns = 0;
+        for (int n = 0; n < shape.Blocks.Length; n++)
+        {
+            int coordinates = shape.Blocks[n].Coupled.Length;
+            TurnOffsets[n] = turns * w;
+            turns += coordinates > 0 ? 1 + TurnCount * coordinates : 0;
+        }
+
+        Turns = new double[turns * w];
         Linear = new double[3 * sides * w];
         Angular = new double[3 * sides * w];
         Matrix = new double[shape.Pattern.Length * w];
@@ -67,6 +80,12 @@ internal class LaneRecords<V>
 
     /// <summary>Records of <see cref="JointCount"/>.</summary>
     public double[] Joints { get; }
+
+    /// <summary>Of each coupling of hinges its offset and, for each hinge, its record: see <see cref="CoupledTurns{V}"/>.</summary>
+    public double[] Turns { get; }
+
+    /// <summary>Where those of a block begin.</summary>
+    public int[] TurnOffsets { get; }
 
     /// <summary>Linear and angular J: for each block, row and side a vector. Linear is read for <see cref="RowClass.General"/> alone.</summary>
     public double[] Linear { get; }

@@ -1,5 +1,4 @@
 using System;
-using System.Runtime.CompilerServices;
 using Kinefab.Joints;
 using Kinefab.Numerics;
 
@@ -65,7 +64,7 @@ internal sealed class WatchedLimits<V>
         {
             if (_shape.Blocks[n].Watch == WatchForm.Twist)
             {
-                MeasureTurn(batch, n);
+                HingeTurn<V>.Measure(batch, n, _turns, 2 * n * Lane<V>.Width);
             }
         }
     }
@@ -144,28 +143,5 @@ internal sealed class WatchedLimits<V>
         }
 
         return least;
-    }
-
-    // y1 of frame 1 in frame 0: (cosine, sine) along y0 and z0.
-    [MethodImpl(MethodImplOptions.NoInlining)]
-    private void MeasureTurn(LaneBatch<V> batch, int n)
-    {
-        int w = Lane<V>.Width;
-        int body = _shape.Blocks[n].Bodies[1];
-        int axis = LaneBatch<V>.WorldFrame(0);
-        LaneVector<V> y0 = LaneVector<V>.Load(batch.Joints, LaneBatch<V>.Joint(n, axis + 6));
-        LaneVector<V> z0 = LaneVector<V>.Load(batch.Joints, LaneBatch<V>.Joint(n, axis + 9));
-        LaneVector<V> y1 = LaneVector<V>.Load(batch.Joints, LaneBatch<V>.Joint(n, LaneBatch<V>.Frame(1) + 6));
-        if (!_shape.IsStatic[body])
-        {
-            int r = LaneBatch<V>.Body(body, BodyLanes.R);
-            y1 = new LaneVector<V>(
-                LaneVector<V>.Dot(LaneVector<V>.Load(batch.Bodies, r), y1),
-                LaneVector<V>.Dot(LaneVector<V>.Load(batch.Bodies, r, 3), y1),
-                LaneVector<V>.Dot(LaneVector<V>.Load(batch.Bodies, r, 6), y1));
-        }
-
-        LaneVector<V>.Dot(y0, y1).Store(_turns, 2 * n * w);
-        LaneVector<V>.Dot(z0, y1).Store(_turns, (2 * n + 1) * w);
     }
 }

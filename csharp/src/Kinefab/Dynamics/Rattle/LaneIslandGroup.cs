@@ -5,21 +5,20 @@ using Kinefab.Numerics;
 namespace Kinefab.Dynamics.Rattle;
 
 /// <summary>
-/// Islands in lanes. All lanes try a plain RATTLE step together; those that it does not suffice, or whose limits come into play, are taken
-/// out and go down the step controller by themselves, so that no lane's result depends on its neighbours'.
+/// Islands in lanes. All lanes try a plain RATTLE step together, those that rest on limits with rows for these; those that it does not suffice, or
+/// whose limits and drives come to act otherwise, are taken out and go down the step controller by themselves, so that no lane's result depends on
+/// its neighbours'.
 /// </summary>
 internal sealed class LaneIslandGroup<V> : IslandGroup
     where V : struct, ILane<V>
 {
     private readonly MultibodySystem _mechanism;
     private readonly LaneIsland[] _islands;
-    private readonly LaneBatch<V>[] _batches;
-    private readonly WatchedLimits<V>? _limits;
+    private readonly LaneStep<V>[] _free;
 
-    // Batches of which all lanes made the last step alone, so that their rows are not those of the pose.
-    private readonly bool[] _isLeft;
-    private readonly bool[] _converged = new bool[Lane<V>.Width];
-    private readonly bool[] _isAlone = new bool[Lane<V>.Width];
+    // Of the same lanes, with the rows of limits; empty without such.
+    private readonly LaneStep<V>[] _resting;
+    private readonly bool[] _rests = new bool[Lane<V>.Width];
     private readonly SubstepHistory[] _histories;
 
     // Of islands with scalar rows, which they have only when they step alone; else empty.
@@ -31,28 +30,12 @@ internal sealed class LaneIslandGroup<V> : IslandGroup
     {
         _mechanism = mechanism;
         _islands = islands.ToArray();
-        Island shape = _islands[0].InLanes;
-        int width = Lane<V>.Width;
-        _batches = new LaneBatch<V>[(_islands.Length + width - 1) / width];
-        _isLeft = new bool[_batches.Length];
-        var workspace = new Workspace<V>(shape);
-        for (int i = 0; i < _batches.Length; i++)
-        {
-            // All of one shape object, so that what it says is read from memory once.
-            var batch = new LaneBatch<V>(shape, workspace);
-            for (int lane = 0; lane < width; lane++)
-            {
-                LaneTransfer<V>.GatherConstants(batch, lane, Occupant(i, lane).InLanes, mechanism);
-            }
-
-            _batches[i] = batch;
-        }
-
-        _limits = WatchedLimits<V>.Of(shape);
+        LaneIsland shape = _islands[0];
+        _free = Steps(shape.InLanes, island => island.InLanes);
+        _resting = shape.Resting is null ? Array.Empty<LaneStep<V>>() : Steps(shape.Resting, island => island.Resting!);
         _histories = new SubstepHistory[_islands.Length];
-        Island alone = _islands[0].Alone;
-        _memories = alone.ScalarCount == 0 ? Array.Empty<AloneMemory>() : Array.ConvertAll(_islands, island => new AloneMemory(island.Alone, mechanism.Bodies));
-        _spare = new LaneBatch<ScalarLane>(alone, new Workspace<ScalarLane>(alone));
+        _memories = shape.Alone.ScalarCount == 0 ? Array.Empty<AloneMemory>() : Array.ConvertAll(_islands, island => new AloneMemory(island.Alone, mechanism.Bodies));
+        _spare = new LaneBatch<ScalarLane>(shape.Alone, new Workspace<ScalarLane>(shape.Alone));
         _controller = new StepController(_spare);
     }
 
@@ -64,42 +47,38 @@ internal sealed class LaneIslandGroup<V> : IslandGroup
             memory.BeginStep();
         }
 
-        for (int i = 0; i < _batches.Length; i++)
+        for (int i = 0; i < _free.Length; i++)
         {
-            LaneBatch<V> batch = _batches[i];
-            Load(batch, i, dt, tolerance);
-            bool isAny = IsAnyActive(batch);
-            Drift(batch, isAny, dt, tolerance);
-            bool hasClimbed = false;
-            for (int lane = 0; lane < Lane<V>.Width; lane++)
+            LaneStep<V> free = _free[i];
+            free.Load(dt);
+            Sort(free, i, dt, tolerance);
+            free.Begin(dt, tolerance);
+            free.Drift(dt, tolerance);
+            Rest(i, dt, tolerance);
+            for (int lane = 0; lane < free.Occupied; lane++)
             {
-                bool hasFailed = isAny && !_converged[lane];
-                _isAlone[lane] = _isAlone[lane] || hasFailed || (_limits != null && _limits.IsPassed(batch, lane, tolerance));
-                if (_isAlone[lane] && IsOccupied(i, lane))
+                if (free.IsAlone(lane) && !free.IsTakenOver(lane))
                 {
-                    hasClimbed = true;
-                    AdvanceAlone(batch, i, lane, dt, tolerance, hasFailed);
+                    AdvanceAlone(free, i, lane, dt, tolerance);
                 }
-
-                batch.Work.Active[lane] = _isAlone[lane] ? 0 : 1;
             }
 
-            if (hasClimbed)
+            free.Project(dt, tolerance);
+            for (int lane = 0; lane < free.Occupied; lane++)
             {
-                BilateralRows<V>.Place(batch);
+                if (free.HasLeftLate(lane))
+                {
+                    AdvanceAlone(free, i, lane, dt, tolerance);
+                }
             }
 
-            Project(batch, i, dt, tolerance);
-            RattleStep<V>.Accept(batch);
-            GeometricStiffness<V>.Estimate(batch, batch.VelocityImpulses, dt / 2);
-            RattleStep<V>.Accumulate(batch);
-            LaneTransfer<V>.EndStep(batch);
-            int occupied = Math.Min(Lane<V>.Width, _islands.Length - i * Lane<V>.Width);
-            LaneTransfer<V>.Scatter(batch, occupied, _mechanism);
-            Reactions<V>.Report(batch, occupied, _mechanism, dt);
-            for (int lane = 0; lane < occupied; lane++)
+            free.End(dt);
+            for (int lane = 0; lane < free.Occupied; lane++)
             {
-                FinishLane(batch, i, lane);
+                if (free.IsActive(lane))
+                {
+                    Forget(i, lane, true);
+                }
             }
         }
     }
@@ -107,184 +86,136 @@ internal sealed class LaneIslandGroup<V> : IslandGroup
     /// <inheritdoc/>
     public override void Exchange(StateTape tape)
     {
-        foreach (LaneBatch<V> batch in _batches)
+        foreach (LaneStep<V> step in _free)
         {
-            batch.Exchange(tape);
+            step.Exchange(tape);
+        }
+
+        foreach (LaneStep<V> step in _resting)
+        {
+            step.Exchange(tape);
         }
 
         tape.Array(_histories);
-        tape.Array(_isLeft);
         foreach (AloneMemory memory in _memories)
         {
             memory.Exchange(tape);
         }
     }
 
-    private void Load(LaneBatch<V> batch, int index, double dt, double tolerance)
+    // Which lanes take part: not those that are cut or turn fast, and not those at limits.
+    private void Sort(LaneStep<V> free, int index, double dt, double tolerance)
     {
-        LaneTransfer<V>.Gather(batch, _mechanism, dt);
-        bool isMoved = false;
-        for (int lane = 0; lane < Lane<V>.Width; lane++)
+        Array.Clear(_rests, 0, _rests.Length);
+        for (int lane = 0; lane < free.Occupied; lane++)
         {
-            if (batch.Work.Moved[lane] != 0 && IsOccupied(index, lane))
+            if (free.IsAlone(lane) || History(index, lane).Halvings > 0 || free.Demand(lane, dt) > 1)
             {
-                isMoved = true;
-                ClearHistory(batch, lane);
+                free.Leave(lane);
             }
-        }
-
-        LaneTransfer<V>.BeginStep(batch);
-        CoupledTurns<V>.Gather(batch);
-        for (int lane = 0; lane < Lane<V>.Width; lane++)
-        {
-            double stiffest = 0;
-            for (int body = 0; body < batch.Shape.MovingBodies; body++)
+            else if (free.IsAtLimit(lane, tolerance))
             {
-                stiffest = Math.Max(stiffest, batch.Bodies[LaneBatch<V>.Body(body, BodyLanes.Stiffness) + lane]);
-            }
-
-            _isAlone[lane] = !IsOccupied(index, lane) || StepLimit.Of(stiffest, batch.Work.Fastest[lane], dt) > 1 || History(index, lane).Halvings > 0;
-        }
-
-        if (isMoved)
-        {
-            FreeMotion<V>.Stay(batch);
-            RattleStep<V>.Rebuild(batch);
-            LeaveOpenOnes(batch);
-            LeaveForbiddenSpeeds(batch);
-        }
-
-        for (int lane = 0; lane < Lane<V>.Width; lane++)
-        {
-            _isAlone[lane] = _isAlone[lane] || (_limits != null && _limits.IsReached(batch, lane, tolerance));
-            batch.Work.Active[lane] = _isAlone[lane] ? 0 : 1;
-        }
-
-        if (!isMoved && _isLeft[index] && IsAnyActive(batch))
-        {
-            FreeMotion<V>.Stay(batch);
-            RattleStep<V>.Rebuild(batch);
-        }
-    }
-
-    private void Drift(LaneBatch<V> batch, bool isAny, double dt, double tolerance)
-    {
-        if (isAny)
-        {
-            RattleStep<V>.KickAndDrift(batch, dt, tolerance, _converged);
-            _limits?.Measure(batch);
-        }
-    }
-
-    // Of lanes that are all alone only what the next step's start asks for is made.
-    private void Project(LaneBatch<V> batch, int index, double dt, double tolerance)
-    {
-        _isLeft[index] = !IsAnyActive(batch);
-        if (_isLeft[index])
-        {
-            DelassusMatrix<V>.InverseInertias(batch);
-            return;
-        }
-
-        RattleStep<V>.Build(batch);
-        VelocityProjection<V>.Run(batch, dt, tolerance);
-    }
-
-    private void FinishLane(LaneBatch<V> batch, int index, int lane)
-    {
-        if (!_isAlone[lane])
-        {
-            CoupledTurns<V>.Finish(batch, lane);
-            if (_limits != null)
-            {
-                _limits.FinishAngles(batch, lane);
-                _memories[index * Lane<V>.Width + lane].Forget();
+                free.Leave(lane);
+                _rests[lane] = _resting.Length > 0 && !free.IsMoved(lane);
             }
         }
     }
 
-    // So are those with speeds that the joints forbid.
-    private void LeaveForbiddenSpeeds(LaneBatch<V> batch)
+    // The step of the lanes that rest on limits; those that cannot do it so are left alone.
+    private void Rest(int index, double dt, double tolerance)
     {
-        Impulses<V>.NegativeSpeeds(batch);
-        double[] speeds = batch.Work.Solution;
-        for (int i = 0; i < speeds.Length; i++)
-        {
-            int lane = i % Lane<V>.Width;
-            _isAlone[lane] |= batch.Work.Moved[lane] != 0 && Math.Abs(speeds[i]) > InitialVelocityProjection.MostForbidden;
-        }
-    }
-
-    // Moved lanes that stand open are the step controller's to close.
-    private void LeaveOpenOnes(LaneBatch<V> batch)
-    {
-        if (batch.Shape.IsInconsistent)
+        if (_resting.Length == 0)
         {
             return;
         }
 
-        BilateralRows<V>.Evaluate(batch);
-        BilateralRows<V>.MeasureErrors(batch);
-        for (int lane = 0; lane < Lane<V>.Width; lane++)
+        LaneStep<V> free = _free[index];
+        LaneStep<V> resting = _resting[index];
+        if (Array.IndexOf(_rests, true) < 0)
         {
-            _isAlone[lane] |= batch.Work.Moved[lane] != 0 && batch.Work.MaxError[lane] > PositionProjection.MostOpen;
+            resting.LeaveAll();
+            return;
+        }
+
+        resting.Load(free, _rests, dt);
+        resting.Begin(dt, tolerance);
+        resting.Drift(dt, tolerance);
+        resting.Project(dt, tolerance);
+        resting.End(dt);
+        for (int lane = 0; lane < free.Occupied; lane++)
+        {
+            if (resting.IsActive(lane))
+            {
+                free.TakeOver(lane, resting.Batch, lane);
+                Forget(index, lane, false);
+            }
         }
     }
 
     // The world still holds the island's state before the step, the lane its impulses.
-    private void AdvanceAlone(LaneBatch<V> batch, int index, int lane, double dt, double tolerance, bool hasFailed)
+    private void AdvanceAlone(LaneStep<V> free, int index, int lane, double dt, double tolerance)
     {
-        Island island = Occupant(index, lane).Alone;
+        Island island = _islands[index * Lane<V>.Width + lane].Alone;
         LaneTransfer<ScalarLane>.GatherConstants(_spare, 0, island, _mechanism);
         LaneTransfer<ScalarLane>.Gather(_spare, _mechanism, dt);
         LaneTransfer<ScalarLane>.BeginStep(_spare);
-        LaneTransfer<V>.CopyGuess(batch, lane, _spare);
+        _spare.ClearHistory();
+        LaneTransfer<V>.CopyGuess(free.Batch, lane, _spare, 0);
+        AxisRows<V>? axes = (_resting.Length > 0 ? _resting[index] : free).Batch.Axes;
         AloneMemory? memory = _memories.Length > 0 ? _memories[index * Lane<V>.Width + lane] : null;
-        bool isMoved = batch.Work.Moved[lane] != 0;
+        bool isMoved = free.IsMoved(lane);
         if (isMoved)
         {
-            memory?.Forget();
+            Forget(index, lane, true);
         }
 
-        memory?.Restore(_spare);
+        if (memory == null || !memory.TryRestore(_spare))
+        {
+            axes?.HandOver(lane, _spare);
+        }
+
         FreeMotion<ScalarLane>.Stay(_spare);
         RattleStep<ScalarLane>.Rebuild(_spare);
         RattleStep<ScalarLane>.ReloadState(_spare);
         int stops = _controller.DampedSteps;
-        _controller.Advance(dt, tolerance, ref History(index, lane), hasFailed, isMoved);
+        _controller.Advance(dt, tolerance, ref History(index, lane), free.HasFailed(lane), isMoved);
         Note(_controller, island, stops);
         memory?.Save(_spare, _controller.DampedSteps == stops);
+        axes?.TakeOver(lane, _spare);
+        _spare.Work.Active[0] = 1;
         LaneTransfer<ScalarLane>.EndStep(_spare);
         LaneTransfer<ScalarLane>.Scatter(_spare, 1, _mechanism);
-        _spare.Work.Active[0] = 1;
         Reactions<ScalarLane>.Report(_spare, 1, _mechanism, dt);
-        LaneTransfer<V>.CopyLane(batch, lane, _spare);
+        free.TakeOver(lane, _spare, 0);
     }
 
-    private static void ClearHistory(LaneBatch<V> batch, int lane)
+    // A step in lanes leaves no scalar rows to remember, and one without limits none of theirs.
+    private void Forget(int index, int lane, bool isFree)
     {
-        for (int i = lane; i < batch.VelocityImpulses.Length; i += Lane<V>.Width)
+        if (_memories.Length > 0)
         {
-            batch.VelocityImpulses[i] = 0;
-        }
-    }
-
-    private static bool IsAnyActive(LaneBatch<V> batch)
-    {
-        bool isAny = false;
-        for (int lane = 0; lane < Lane<V>.Width; lane++)
-        {
-            isAny |= batch.Work.Active[lane] != 0;
+            _memories[index * Lane<V>.Width + lane].Forget();
         }
 
-        return isAny;
+        if (isFree && _resting.Length > 0)
+        {
+            _resting[index].Batch.Axes!.Forget(lane);
+        }
     }
 
     private ref SubstepHistory History(int batch, int lane) => ref _histories[batch * Lane<V>.Width + lane];
 
-    private bool IsOccupied(int batch, int lane) => batch * Lane<V>.Width + lane < _islands.Length;
+    private LaneStep<V>[] Steps(Island shape, Func<LaneIsland, Island> form)
+    {
+        int w = Lane<V>.Width;
+        var steps = new LaneStep<V>[(_islands.Length + w - 1) / w];
+        var workspace = new Workspace<V>(shape);
+        for (int i = 0; i < steps.Length; i++)
+        {
+            int occupied = Math.Min(w, _islands.Length - i * w);
+            steps[i] = new LaneStep<V>(_mechanism, Array.ConvertAll(_islands.AsSpan(i * w, occupied).ToArray(), island => form(island)), shape, workspace);
+        }
 
-    // Lanes without an island of their own hold a copy of the batch's first, which is never active.
-    private LaneIsland Occupant(int batch, int lane) =>
-        _islands[IsOccupied(batch, lane) ? batch * Lane<V>.Width + lane : batch * Lane<V>.Width];
+        return steps;
+    }
 }

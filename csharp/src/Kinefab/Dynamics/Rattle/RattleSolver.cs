@@ -145,14 +145,14 @@ internal sealed class RattleSolver : ISolver, IStepParts
         var inLanes = new List<LaneIsland>();
         foreach (Island island in rest)
         {
-            Island? lanes = island.InLanes();
+            LaneIsland? lanes = LaneIsland.Of(island);
             if (lanes is null)
             {
                 alone.Add(island);
             }
             else
             {
-                inLanes.Add(new LaneIsland(lanes, island));
+                inLanes.Add(lanes);
             }
         }
 

@@ -56,8 +56,8 @@ internal sealed class ScalarIslandGroup : IslandGroup
             }
 
             LaneTransfer<ScalarLane>.EndStep(batch);
-            LaneTransfer<ScalarLane>.Scatter(batch, 1, _mechanism);
             batch.Work.Active[0] = 1;
+            LaneTransfer<ScalarLane>.Scatter(batch, 1, _mechanism);
             Reactions<ScalarLane>.Report(batch, 1, _mechanism, dt);
         }
     }

@@ -189,18 +189,19 @@ internal sealed class Island
     public bool HasAssembledRows { get; }
 
     /// <summary>
-    /// The same as it is stepped in lanes, while none of its limits is reached: without their rows. Itself, where it has no rows that are not in
-    /// closed form; null, where it has others than those.
+    /// The same as it is stepped in lanes, while none of its limits is reached or while hinges rest on them. Itself, where it has no rows that are not
+    /// in closed form; null, where it has others than those that have one there.
     /// </summary>
-    public Island? InLanes()
+    /// <param name="holdsLimits">Whether hinges with limits have a row for the end that they rest on.</param>
+    public Island? InLanes(bool holdsLimits)
     {
         if (!HasAssembledRows)
         {
             return this;
         }
 
-        RowBlock[] plain = Array.ConvertAll(Blocks, block => block.InLanes(Blocks));
-        return Array.Exists(plain, block => block.IsAssembled || block.Rows == 0) ? null : new Island(Bodies, MovingBodies, plain, _inverseInertias) { Loops = Loops };
+        RowBlock[] plain = Array.ConvertAll(Blocks, block => block.InLanes(Blocks, holdsLimits));
+        return (IsInconsistent && Array.Exists(plain, block => block.HasAxisRow)) || Array.Exists(plain, block => block.IsAssembled || block.Rows == 0) ? null : new Island(Bodies, MovingBodies, plain, _inverseInertias) { Loops = Loops };
     }
 
     /// <summary>Whether the other island is of the same build, so that both can share lanes.</summary>
@@ -257,7 +258,7 @@ internal sealed class Island
         var rated = new SortedSet<int>();
         foreach (RowBlock block in blocks)
         {
-            if (block.ScalarCount > 0)
+            if (block.ScalarCount > 0 || block.HasAxisRow)
             {
                 rated.UnionWith(block.Bodies);
             }

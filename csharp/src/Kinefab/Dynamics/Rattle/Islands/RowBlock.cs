@@ -26,12 +26,15 @@ internal enum AngularForm : byte
     Prepared,
 }
 
-/// <summary>How limits are watched that have no row in lanes.</summary>
+/// <summary>What is watched in lanes: limits, which have no row there but for a hinge that rests on one.</summary>
 internal enum WatchForm : byte
 {
     None,
 
-    /// <summary>Two ends of the turn of a hinge about X.</summary>
+    /// <summary>The turn of a hinge about X, which a drive asks for.</summary>
+    Turn,
+
+    /// <summary>The same with its two ends.</summary>
     Twist,
 
     /// <summary>Whatever <see cref="JointModel.PrepareForces"/> writes.</summary>
@@ -97,15 +100,21 @@ internal sealed class RowBlock
     /// <summary>Of a block without its limits' rows: how to tell when they are reached.</summary>
     public readonly WatchForm Watch;
 
+    /// <summary>Of a block in lanes: whether a hinge has a row about its axis, for a drive or for the end of its limits that it rests on.</summary>
+    public readonly bool HasAxisRow;
+
+    /// <summary>Whether that row is a drive's.</summary>
+    public readonly bool IsAxisDriven;
+
     /// <summary>For a coupling, which of Bodies are actor 0 and 1 of the joint of each of its coordinates.</summary>
     public readonly int[] CouplingSides = Array.Empty<int>();
 
     public RowBlock(JointModel joint, int index, int[] bodies)
-        : this(joint, index, bodies, true)
+        : this(joint, index, bodies, false, false)
     {
     }
 
-    private RowBlock(JointModel joint, int index, int[] bodies, bool hasLimits)
+    private RowBlock(JointModel joint, int index, int[] bodies, bool isInLanes, bool holdsLimits)
     {
         Joint = joint;
         Index = index;
@@ -123,12 +132,16 @@ internal sealed class RowBlock
             7 => AngularForm.All,
             _ => AngularForm.Prepared,
         };
-        Drives = layout.Drives;
-        HasCone = hasLimits && layout.HasCone;
-        AngleLimits = hasLimits ? layout.SwingLimits + layout.TwistLimits : 0;
-        HasDistance = hasLimits && layout.HasDistance;
         bool isHinge = layout.Limits == layout.TwistLimits && Angular == AngularForm.HingeX;
-        Watch = hasLimits || layout.Limits == 0 ? WatchForm.None : isHinge ? WatchForm.Twist : WatchForm.Prepared;
+        IsAxisDriven = isInLanes && layout.Drives == 1 && layout.AngularDrives == 1 && Angular == AngularForm.HingeX;
+        HasAxisRow = IsAxisDriven || (isInLanes && holdsLimits && isHinge && layout.Limits > 0 && layout.Drives == 0);
+        Drives = IsAxisDriven ? 0 : layout.Drives;
+        HasCone = !isInLanes && layout.HasCone;
+        AngleLimits = isInLanes ? 0 : layout.SwingLimits + layout.TwistLimits;
+        HasDistance = !isInLanes && layout.HasDistance;
+        Watch = !isInLanes ? WatchForm.None
+            : layout.Limits == 0 ? (IsAxisDriven ? WatchForm.Turn : WatchForm.None)
+            : isHinge ? WatchForm.Twist : WatchForm.Prepared;
 
         for (int axis = 0; axis < 3; axis++)
         {
@@ -153,6 +166,11 @@ internal sealed class RowBlock
             RotationPlane(i, out int axis0, out int axis1);
             WorldLeverMask0 |= 2 << axis0;
             WorldLeverMask1 |= 2 << axis1;
+        }
+
+        if (HasAxisRow)
+        {
+            classes.Add(RowClass.Angular);
         }
 
         for (int i = 0; i < ScalarCount; i++)
@@ -222,13 +240,14 @@ internal sealed class RowBlock
     /// <summary>Whether prepared rows are worth a second look at the end of the drift; a hinge's axis on the world stays.</summary>
     public bool HasMovingRows => Angular == AngularForm.Prepared || Limits > 0 || (Drives > 0 && !(Joint is RevoluteJoint && Joint.Body0 == JointModel.World));
 
-    /// <summary>The block as it stands in lanes: without the rows of its limits; a coupling of hinges with the blocks of these.</summary>
+    /// <summary>The block as it stands in lanes: without the rows of its limits, a hinge with one about its axis; a coupling of hinges with the blocks of these.</summary>
     /// <param name="blocks">Of its island.</param>
-    public RowBlock InLanes(RowBlock[] blocks)
+    /// <param name="holdsLimits">Whether a hinge with limits has a row for the end that it rests on.</param>
+    public RowBlock InLanes(RowBlock[] blocks, bool holdsLimits)
     {
         if (Coupling is null)
         {
-            return Limits == 0 ? this : new RowBlock(Joint!, Index, Bodies, false);
+            return ScalarCount == 0 ? this : new RowBlock(Joint!, Index, Bodies, true, holdsLimits);
         }
 
         int[] coupled = Array.ConvertAll(
@@ -239,7 +258,7 @@ internal sealed class RowBlock
     /// <summary>Whether the other block has the same rows between the same bodies.</summary>
     public bool HasShapeOf(RowBlock other)
     {
-        if (Bodies.Length != other.Bodies.Length || LinearMask != other.LinearMask || Angular != other.Angular || Watch != other.Watch
+        if (Bodies.Length != other.Bodies.Length || LinearMask != other.LinearMask || Angular != other.Angular || Watch != other.Watch || HasAxisRow != other.HasAxisRow || IsAxisDriven != other.IsAxisDriven
             || !HasSame(CouplingSides, other.CouplingSides) || !HasSame(Coupled, other.Coupled) || (Coupling is null) != (other.Coupling is null) || Drives != other.Drives || HasCone != other.HasCone || AngleLimits != other.AngleLimits
             || HasDistance != other.HasDistance || HasMovingRows != other.HasMovingRows)
         {

@@ -26,9 +26,6 @@ internal sealed partial class ActiveSet<V>
     /// <summary>A limit this many tolerances away counts as reached.</summary>
     public const double Reach = 10;
 
-    /// <summary>A limit that is passed by less at a step's start is the drift's to close, m or rad; one by more, that closing the pose left there, stays.</summary>
-    public const double MostClosedByDrift = 1e-6;
-
     private readonly LaneRecords<V> _batch;
     private readonly ScalarRows _scalars;
     private readonly ScalarRow[] _rows;
@@ -73,7 +70,7 @@ internal sealed partial class ActiveSet<V>
             scalar.Theta = isImplicit ? 1 : 0.5;
             scalar.Kind = scalar.FindKind(SoftReach(scalar, h, tolerance));
             scalar.IsApart = LocatesEvents && (!scalar.IsActive || (scalar.Built.Has(RowFlags.Limit) && scalar.StartError > Reach * tolerance));
-            scalar.Allowed = scalar.Kind == RowKind.Limit && scalar.StartError < -MostClosedByDrift ? scalar.StartError : 0;
+            scalar.Allowed = scalar.Kind == RowKind.Limit && scalar.StartError < -ScalarRow.MostClosedByDrift ? scalar.StartError : 0;
             if (scalar.Kind == RowKind.None || scalar.IsApart)
             {
                 scalar.State = RowState.AtBound;
@@ -193,7 +190,7 @@ internal sealed partial class ActiveSet<V>
         {
             ref ScalarRow scalar = ref _rows[i];
             bool isLimit = scalar.IsActive && scalar.Built.Has(RowFlags.Limit) && !scalar.Built.Has(RowFlags.Spring);
-            if (isLimit && scalar.Built.GeometricError < scalar.Allowed - MostClosedByDrift)
+            if (isLimit && scalar.Built.GeometricError < scalar.Allowed - ScalarRow.MostClosedByDrift)
             {
                 return true;
             }

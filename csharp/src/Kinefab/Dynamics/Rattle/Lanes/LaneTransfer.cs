@@ -126,7 +126,7 @@ internal static class LaneTransfer<V>
         }
     }
 
-    /// <summary>Poses and velocities of the first lanes back to the world's bodies, after <see cref="EndStep"/>.</summary>
+    /// <summary>Poses and velocities of the first lanes that are active back to the world's bodies, after <see cref="EndStep"/>.</summary>
     public static void Scatter(LaneRecords<V> batch, int lanes, MultibodySystem mechanism)
     {
         Bodies bodies = mechanism.Bodies;
@@ -136,6 +136,11 @@ internal static class LaneTransfer<V>
         {
             for (int lane = 0; lane < lanes; lane++)
             {
+                if (batch.Work.Active[lane] == 0)
+                {
+                    continue;
+                }
+
                 int body = batch.Members[b * w + lane];
                 int o = LaneRecords<V>.Body(b, 0) + lane;
                 bodies.Poses[body] = new Pose(ReadVector(a, o + BodyLanes.EndX * w), ReadQuaternion(a, o + BodyLanes.EndQ * w));
@@ -145,48 +150,51 @@ internal static class LaneTransfer<V>
         }
     }
 
-    /// <summary>A lane's state at the end of a step, and the guess it leaves for the next, into another batch's lane.</summary>
-    public static void CopyLane(LaneRecords<V> batch, int lane, LaneRecords<ScalarLane> from)
+    /// <summary>A lane's state at the end of a step, and the guess it leaves for the next, into another batch's lane, of the rows that both have.</summary>
+    public static void CopyLane<S>(LaneRecords<V> batch, int lane, LaneRecords<S> from, int fromLane)
+        where S : struct, ILane<S>
     {
+        int w = Lane<V>.Width;
+        int s = Lane<S>.Width;
         for (int b = 0; b < batch.Shape.Bodies.Length; b++)
         {
             int to = LaneRecords<V>.Body(b, 0) + lane;
-            int source = LaneRecords<ScalarLane>.Body(b, 0);
+            int source = LaneRecords<S>.Body(b, 0) + fromLane;
             for (int i = 0; i < BodyLanes.InverseMass; i++)
             {
-                batch.Bodies[to + i * Lane<V>.Width] = from.Bodies[source + i];
+                batch.Bodies[to + i * w] = from.Bodies[source + i * s];
             }
         }
 
         for (int n = 0; n < batch.Shape.Blocks.Length; n++)
         {
-            int row = from.Shape.Pattern.Rows[n];
-            int at = batch.Shape.Pattern.Rows[n] * Lane<V>.Width + lane;
-            for (int i = 0; i < batch.Shape.Blocks[n].Rows; i++, at += Lane<V>.Width)
+            int row = from.Shape.Pattern.Rows[n] * s + fromLane;
+            int at = batch.Shape.Pattern.Rows[n] * w + lane;
+            for (int i = 0; i < batch.Shape.Blocks[n].BilateralCount; i++, at += w, row += s)
             {
-                batch.VelocityImpulses[at] = from.VelocityImpulses[row + i];
-                batch.Work.TotalImpulses[at] = from.Work.TotalImpulses[row + i];
+                batch.VelocityImpulses[at] = from.VelocityImpulses[row];
+                batch.Work.TotalImpulses[at] = from.Work.TotalImpulses[row];
             }
         }
     }
 
-    /// <summary>The guess that a lane's last step has left, into a batch that may have more rows.</summary>
-    public static void CopyGuess(LaneRecords<V> batch, int lane, LaneRecords<ScalarLane> to)
+    /// <summary>The guess that a lane's last step has left for the bilateral rows, and the stiffness that it found, into another batch.</summary>
+    public static void CopyGuess<S>(LaneRecords<V> batch, int lane, LaneRecords<S> to, int toLane)
+        where S : struct, ILane<S>
     {
-        Array.Clear(to.VelocityImpulses, 0, to.VelocityImpulses.Length);
         for (int n = 0; n < batch.Shape.Blocks.Length; n++)
         {
-            int row = to.Shape.Pattern.Rows[n];
+            int row = to.Shape.Pattern.Rows[n] * Lane<S>.Width + toLane;
             int at = batch.Shape.Pattern.Rows[n] * Lane<V>.Width + lane;
-            for (int i = 0; i < batch.Shape.Blocks[n].Rows; i++, at += Lane<V>.Width)
+            for (int i = 0; i < batch.Shape.Blocks[n].BilateralCount; i++, at += Lane<V>.Width, row += Lane<S>.Width)
             {
-                to.VelocityImpulses[row + i] = batch.VelocityImpulses[at];
+                to.VelocityImpulses[row] = batch.VelocityImpulses[at];
             }
         }
 
         for (int body = 0; body < to.Shape.MovingBodies; body++)
         {
-            to.Bodies[LaneRecords<ScalarLane>.Body(body, BodyLanes.Stiffness)] = batch.Bodies[LaneRecords<V>.Body(body, BodyLanes.Stiffness) + lane];
+            to.Bodies[LaneRecords<S>.Body(body, BodyLanes.Stiffness) + toLane] = batch.Bodies[LaneRecords<V>.Body(body, BodyLanes.Stiffness) + lane];
         }
     }
 

@@ -35,6 +35,7 @@ internal static class RattleStep<V>
 
         batch.CompliantStep = batch.Shape.IsInconsistent ? h : 0;
         batch.ActiveSet?.Begin(h, tolerance, false);
+        batch.Axes?.WriteRows(true);
         Kick(batch, h / 2);
         Array.Copy(batch.VelocityImpulses, batch.Work.PositionImpulses, batch.VelocityImpulses.Length);
         Impulses<V>.Apply(batch, batch.Work.PositionImpulses);
@@ -42,7 +43,7 @@ internal static class RattleStep<V>
         {
             FactorForDrift(batch, batch.ActiveSet);
         }
-        else if (batch.Shape.IsInconsistent)
+        else if (batch.Shape.IsInconsistent || (batch.Axes != null && !batch.Axes.IsFactoredForDrift()))
         {
             Factor(batch, true);
         }
@@ -56,6 +57,7 @@ internal static class RattleStep<V>
             FreeMotion<V>.Drift(batch, h);
             BilateralRows<V>.Evaluate(batch);
             batch.ActiveSet?.Evaluate(h);
+            batch.Axes?.Evaluate(h);
             BilateralRows<V>.MeasureErrors(batch);
             bool isDone = true;
             for (int lane = 0; lane < w; lane++)
@@ -115,7 +117,7 @@ internal static class RattleStep<V>
         BilateralRows<V>.Build(batch);
         if (batch.Scalars == null)
         {
-            Factor(batch, true);
+            Factor(batch, batch.Axes == null);
         }
         else
         {
@@ -180,8 +182,10 @@ internal static class RattleStep<V>
     public static void Factor(LaneBatch<V> batch, bool isDrift)
     {
         batch.ActiveSet?.WriteRows(false);
+        batch.Axes?.WriteRows(isDrift);
         DelassusMatrix<V>.Assemble(batch, batch.Shape.IsInconsistent && !isDrift ? DelassusMatrix<V>.UnconstrainedShare : batch.AngularShare);
         batch.ActiveSet?.AddToDiagonal(isDrift);
+        batch.Axes?.AddToDiagonal(isDrift);
         DelassusMatrix<V>.Factor(batch);
     }
 

@@ -38,6 +38,11 @@ internal static class Reactions<V>
                 {
                     AddLimits(batch, batch.ActiveSet, n, 1 / dt, ref force, ref torque);
                 }
+                else if (batch.Axes != null)
+                {
+                    double impulse = batch.Axes.LimitImpulse(n, lane);
+                    torque += impulse == 0 ? Vector3d.Zero : LaneTransfer<V>.ReadVector(batch.Joints, LaneBatch<V>.Joint(n, LaneBatch<V>.WorldFrame(1) + 3) + lane) * (impulse / dt);
+                }
 
                 // The anchors of a slide stand apart: it is the one in actor 1 that counts. Those of other joints meet.
                 JointModel joint = mechanism.Joints[index];

@@ -24,18 +24,16 @@ internal sealed class AloneMemory
     /// <summary>The island made a step in lanes: no limit acted.</summary>
     public void Forget() => _wasAlone = false;
 
-    /// <summary>Gives a batch its scalar rows and impulses as they stood, where the last step was made alone; else leaves it without those.</summary>
-    public void Restore(LaneBatch<ScalarLane> batch)
+    /// <summary>Gives a batch its scalar rows and impulses as they stood, where the last step was made alone.</summary>
+    public bool TryRestore(LaneBatch<ScalarLane> batch)
     {
         if (_wasAlone)
         {
             Array.Copy(_rows, batch.Scalars!.Rows, _rows.Length);
             Array.Copy(_impulses, batch.VelocityImpulses, _impulses.Length);
         }
-        else
-        {
-            batch.Scalars!.ClearHistory();
-        }
+
+        return _wasAlone;
     }
 
     /// <summary>Where a step that was made alone ends.</summary>

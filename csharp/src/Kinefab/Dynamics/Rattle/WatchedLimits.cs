@@ -30,7 +30,7 @@ internal sealed class WatchedLimits<V>
     public static WatchedLimits<V>? Of(Island shape) =>
         Array.Exists(shape.Blocks, block => block.Watch != WatchForm.None) ? new WatchedLimits<V>(shape) : null;
 
-    /// <summary>Whether a lane stands at a limit, so that its row may act from the start of the step on.</summary>
+    /// <summary>Whether a lane stands at a limit, so that its row may act from the start of the step on; those of axis rows are for these to tell.</summary>
     /// <param name="batch">Placed at the start pose.</param>
     /// <param name="lane">The lane.</param>
     /// <param name="tolerance">Largest C, m or rad.</param>
@@ -39,7 +39,7 @@ internal sealed class WatchedLimits<V>
         double reach = ActiveSet<V>.Reach * tolerance;
         for (int n = 0; n < _shape.Blocks.Length; n++)
         {
-            WatchForm form = _shape.Blocks[n].Watch;
+            WatchForm form = _shape.Blocks[n].HasAxisRow ? WatchForm.None : _shape.Blocks[n].Watch;
             if (form == WatchForm.None)
             {
                 continue;
@@ -48,7 +48,7 @@ internal sealed class WatchedLimits<V>
             // Where nobody has moved the bodies the joint knows its turn from the end of the last step.
             JointModel joint = batch.Models[n * Lane<V>.Width + lane]!;
             bool isKnown = form == WatchForm.Twist && batch.Work.Moved[lane] == 0;
-            if (!((isKnown ? LeftOf(joint, joint.LastTwist) : LeastLeft(batch, n, joint, lane)) > reach))
+            if (!((isKnown ? HingeRange.LeftOf(joint, joint.LastTwist) : LeastLeft(batch, n, joint, lane)) > reach))
             {
                 return true;
             }
@@ -62,9 +62,11 @@ internal sealed class WatchedLimits<V>
     {
         for (int n = 0; n < _shape.Blocks.Length; n++)
         {
-            if (_shape.Blocks[n].Watch == WatchForm.Twist)
+            if (_shape.Blocks[n].Watch is WatchForm.Twist or WatchForm.Turn)
             {
-                HingeTurn<V>.Measure(batch, n, _turns, 2 * n * Lane<V>.Width);
+                int at = 2 * n * Lane<V>.Width;
+                HingeTurn<V>.Measure(batch, n, _turns, at);
+                LaneTrigonometry<V>.Atan2(_turns, at + Lane<V>.Width, _turns, at, _turns, at);
             }
         }
     }
@@ -85,19 +87,19 @@ internal sealed class WatchedLimits<V>
             }
 
             JointModel joint = batch.Models[n * w + lane]!;
-            double left;
-            if (form == WatchForm.Twist)
+            if (form == WatchForm.Prepared)
             {
-                ref double turn = ref _turns[2 * n * w + lane];
-                turn = SwingTwist.Nearest(Trigonometry.Atan2(_turns[(2 * n + 1) * w + lane], turn), joint.LastTwist);
-                left = LeftOf(joint, turn);
-            }
-            else
-            {
-                left = LeastLeft(batch, n, joint, lane);
+                if (!(LeastLeft(batch, n, joint, lane) >= -MostPassed * tolerance))
+                {
+                    return true;
+                }
+
+                continue;
             }
 
-            if (!(left >= -MostPassed * tolerance))
+            ref double turn = ref _turns[2 * n * w + lane];
+            turn = SwingTwist.Nearest(turn, joint.LastTwist);
+            if (form == WatchForm.Twist && !(HingeRange.LeftOf(joint, turn) >= -MostPassed * tolerance))
             {
                 return true;
             }
@@ -114,7 +116,7 @@ internal sealed class WatchedLimits<V>
         {
             RowBlock block = _shape.Blocks[n];
             JointModel joint = batch.Models[n * w + lane]!;
-            if (block.Watch == WatchForm.Twist)
+            if (block.Watch is WatchForm.Twist or WatchForm.Turn)
             {
                 joint.LastTwist = _turns[2 * n * w + lane];
             }
@@ -123,12 +125,6 @@ internal sealed class WatchedLimits<V>
                 joint.FinishTwist(LaneTransfer<V>.ReadPose(batch, block.Bodies[0], lane), LaneTransfer<V>.ReadPose(batch, block.Bodies[1], lane));
             }
         }
-    }
-
-    private static double LeftOf(JointModel joint, double turn)
-    {
-        ref readonly AngularLimit limit = ref joint is RevoluteJoint hinge ? ref hinge.Limit : ref ((D6Joint)joint).TwistLimit;
-        return Math.Min(turn - limit.Lower, limit.Upper - turn);
     }
 
     // The least C of its limits by the joint's own rows.

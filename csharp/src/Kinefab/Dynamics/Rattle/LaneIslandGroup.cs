@@ -52,6 +52,7 @@ internal sealed class LaneIslandGroup<V> : IslandGroup
             LaneStep<V> free = _free[i];
             free.Load(dt);
             Sort(free, i, dt, tolerance);
+            LoadResting(free, i);
             free.Begin(dt, tolerance);
             free.Drift(dt, tolerance);
             Rest(i, dt, tolerance);
@@ -121,23 +122,28 @@ internal sealed class LaneIslandGroup<V> : IslandGroup
         }
     }
 
+    private void LoadResting(LaneStep<V> free, int index)
+    {
+        if (Array.IndexOf(_rests, true) >= 0)
+        {
+            _resting[index].Load(free, _rests);
+        }
+        else if (_resting.Length > 0)
+        {
+            _resting[index].LeaveAll();
+        }
+    }
+
     // The step of the lanes that rest on limits; those that cannot do it so are left alone.
     private void Rest(int index, double dt, double tolerance)
     {
-        if (_resting.Length == 0)
+        if (Array.IndexOf(_rests, true) < 0)
         {
             return;
         }
 
         LaneStep<V> free = _free[index];
         LaneStep<V> resting = _resting[index];
-        if (Array.IndexOf(_rests, true) < 0)
-        {
-            resting.LeaveAll();
-            return;
-        }
-
-        resting.Load(free, _rests, dt);
         resting.Begin(dt, tolerance);
         resting.Drift(dt, tolerance);
         resting.Project(dt, tolerance);
@@ -182,6 +188,7 @@ internal sealed class LaneIslandGroup<V> : IslandGroup
         Note(_controller, island, stops);
         memory?.Save(_spare, _controller.DampedSteps == stops);
         axes?.TakeOver(lane, _spare);
+        GeometricStiffness<ScalarLane>.Estimate(_spare, _spare.VelocityImpulses, dt / 2);
         _spare.Work.Active[0] = 1;
         LaneTransfer<ScalarLane>.EndStep(_spare);
         LaneTransfer<ScalarLane>.Scatter(_spare, 1, _mechanism);

@@ -94,10 +94,9 @@ internal sealed class LaneStep<V>
     }
 
     /// <summary>The same of some lanes, as another batch has found them.</summary>
-    public void Load(LaneStep<V> from, bool[] lanes, double dt)
+    public void Load(LaneStep<V> from, bool[] lanes)
     {
-        LaneTransfer<V>.Gather(Batch, _mechanism, dt);
-        LaneTransfer<V>.BeginStep(Batch);
+        LaneTransfer<V>.CopyStart(from.Batch, Batch);
         CoupledTurns<V>.Gather(Batch);
         for (int lane = 0; lane < Lane<V>.Width; lane++)
         {
@@ -194,10 +193,15 @@ internal sealed class LaneStep<V>
         }
     }
 
-    /// <summary>What the lanes that take part have come to, back to the world; what the next step asks for, of all.</summary>
+    /// <summary>What the lanes that take part have come to, back to the world.</summary>
     public void End(double dt)
     {
-        if (!Activate() || Array.IndexOf(_hasLeftLate, true) >= 0)
+        if (!Activate())
+        {
+            return;
+        }
+
+        if (Array.IndexOf(_hasLeftLate, true) >= 0)
         {
             BilateralRows<V>.Place(Batch);
             DelassusMatrix<V>.InverseInertias(Batch);

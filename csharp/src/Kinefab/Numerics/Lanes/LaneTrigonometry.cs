@@ -26,6 +26,17 @@ internal static class LaneTrigonometry<V>
         Lane<V> least = Lane<V>.Min(a, b), most = Lane<V>.Max(a, b);
         Lane<V> isSteep = Lane<V>.Max(least - Lane<V>.Splat(MostSlope) * most, zero);
         Lane<V> t = Lane<V>.Select(isSteep, least - most, least) / Lane<V>.Select(isSteep, least + most, most);
+        Lane<V> angle = Atan(t);
+        angle = Lane<V>.Select(isSteep, Lane<V>.Splat(Math.PI / 4) + angle, angle);
+        angle = Lane<V>.Select(Lane<V>.Max(a - b, zero), Lane<V>.Splat(Math.PI / 2) - angle, angle);
+        angle = Lane<V>.Select(Lane<V>.Min(along, zero), Lane<V>.Splat(Math.PI) - angle, angle);
+        Lane<V>.Select(Lane<V>.Min(across, zero), zero - angle, angle).Store(to, at);
+    }
+
+    /// <summary>The angle of a slope of at most 0.66 either way.</summary>
+    [MethodImpl(MethodImplOptions.AggressiveInlining)]
+    public static Lane<V> Atan(Lane<V> t)
+    {
         Lane<V> z = t * t;
         Lane<V> p = Lane<V>.Splat(-8.750608600031904122785e-1) * z + Lane<V>.Splat(-1.615753718733365076637e1);
         p = p * z + Lane<V>.Splat(-7.500855792314704667340e1);
@@ -36,11 +47,7 @@ internal static class LaneTrigonometry<V>
         q = q * z + Lane<V>.Splat(4.328810604912902668951e2);
         q = q * z + Lane<V>.Splat(4.853903996359136964868e2);
         q = q * z + Lane<V>.Splat(1.945506571482613964425e2);
-        Lane<V> angle = t + t * z * (p / q);
-        angle = Lane<V>.Select(isSteep, Lane<V>.Splat(Math.PI / 4) + angle, angle);
-        angle = Lane<V>.Select(Lane<V>.Max(a - b, zero), Lane<V>.Splat(Math.PI / 2) - angle, angle);
-        angle = Lane<V>.Select(Lane<V>.Min(along, zero), Lane<V>.Splat(Math.PI) - angle, angle);
-        Lane<V>.Select(Lane<V>.Min(across, zero), zero - angle, angle).Store(to, at);
+        return t + t * z * (p / q);
     }
 
     /// <summary>Of the angles that differ from one by whole turns the one nearest to a reference, radians; the reference is less than 1e15.</summary>

@@ -21,6 +21,9 @@ internal sealed class AxisRows<V>
 
     private const double LeastResponse = 1e-200;
 
+    // Compliance of a spring in the projection, in which it does not answer: what is left of an impulse is below rounding.
+    private const double Endless = 1e40;
+
     // Numbers of a row, each Width lanes wide.
     private const int Kind = 0;
     private const int Target = 1;
@@ -29,11 +32,13 @@ internal sealed class AxisRows<V>
     private const int High = 4;
     private const int Response = 5;
     private const int Speed = 6;
-    private const int Cosine = 7;
-    private const int Sine = 8;
-    private const int Turn = 9;
-    private const int Held = 10;
-    private const int StartAxis = 11;
+    private const int StartCosine = 7;
+    private const int StartSine = 8;
+    private const int Cosine = 9;
+    private const int Sine = 10;
+    private const int End = 11;
+    private const int EndCosine = 12;
+    private const int EndSine = 13;
     private const int Count = 14;
 
     // What a lane has as the row.
@@ -76,6 +81,7 @@ internal sealed class AxisRows<V>
             int o = Count * k * w;
             Array.Clear(_numbers, o, 5 * w);
             MeasureResponse(k, o);
+            HingeTurn<V>.Measure(_batch, _blocks[k], _numbers, o + StartCosine * w);
         }
     }
 
@@ -135,17 +141,34 @@ internal sealed class AxisRows<V>
         return true;
     }
 
-    /// <summary>J of the rows where the frames were last placed, 0 where there is none.</summary>
-    /// <param name="isDrift">Springs act in the drift alone.</param>
-    public void WriteRows(bool isDrift)
+    /// <summary>Whether the matrix has the same rows as the drift: but for what springs have on the diagonal it is the drift's.</summary>
+    public bool IsAssembledForDrift()
     {
         for (int k = 0; k < _blocks.Length; k++)
         {
-            WriteRow(k, isDrift);
+            for (int lane = 0; lane < Lane<V>.Width; lane++)
+            {
+                if (_numbers[Count * k * Lane<V>.Width + lane] != _factored[k * Lane<V>.Width + lane])
+                {
+                    return false;
+                }
+            }
+        }
+
+        return _batch.Assembled.Length > 0;
+    }
+
+    /// <summary>J of the rows where the frames were last placed, 0 where there is none.</summary>
+    public void WriteRows()
+    {
+        for (int k = 0; k < _blocks.Length; k++)
+        {
+            WriteRow(k);
         }
     }
 
     /// <summary>The rows' part of the diagonal of the assembled matrix.</summary>
+    /// <param name="isDrift">Springs answer in the drift alone.</param>
     public void AddToDiagonal(bool isDrift)
     {
         int w = Lane<V>.Width;
@@ -156,11 +179,11 @@ internal sealed class AxisRows<V>
             int cell = (_batch.Shape.Pattern.Diagonal(n) + _batch.Shape.Blocks[n].BilateralCount * (_batch.Shape.Blocks[n].Rows + 1)) * w;
             Lane<V> kind = Load(k, Kind);
             Lane<V> isSpring = IsSpring(kind);
-            Lane<V> acts = isDrift ? kind : Lane<V>.Select(isSpring, Lane<V>.Splat(0), kind);
+            Lane<V> compliance = isDrift ? Load(k, Compliance) : Lane<V>.Splat(Endless);
             Lane<V> diagonal = Lane<V>.Load(_batch.Matrix, cell);
-            Lane<V> held = Lane<V>.Select(isSpring, diagonal + Load(k, Compliance), diagonal * Lane<V>.Splat(1 + RigidShare));
-            Lane<V>.Select(acts, held, one).Store(_batch.Matrix, cell);
-            acts.Store(_factored, k * w);
+            Lane<V> held = Lane<V>.Select(isSpring, diagonal + compliance, diagonal * Lane<V>.Splat(1 + RigidShare));
+            Lane<V>.Select(kind, held, one).Store(_batch.Matrix, cell);
+            kind.Store(_factored, k * w);
         }
     }
 
@@ -169,7 +192,14 @@ internal sealed class AxisRows<V>
     {
         for (int k = 0; k < _blocks.Length; k++)
         {
-            EvaluateRow(k, h);
+            if (_batch.Shape.Blocks[_blocks[k]].IsAxisDriven)
+            {
+                EvaluateDrive(k, h);
+            }
+            else
+            {
+                EvaluateLimit(k);
+            }
         }
     }
 
@@ -368,7 +398,13 @@ internal sealed class AxisRows<V>
         }
 
         _numbers[o + Kind * w] = Limit;
-        _numbers[o + Held * w] = end;
+        if (_numbers[o + End * w] != end || _numbers[o + EndCosine * w] == 0)
+        {
+            _numbers[o + End * w] = end;
+            _numbers[o + EndCosine * w] = Trigonometry.Cos(end);
+            _numbers[o + EndSine * w] = Trigonometry.Sin(end);
+        }
+
         _numbers[o + Low * w] = isUpper ? 0 : double.NegativeInfinity;
         _numbers[o + High * w] = isUpper ? double.PositiveInfinity : 0;
         return true;
@@ -386,7 +422,6 @@ internal sealed class AxisRows<V>
     {
         int n = _blocks[k];
         LaneVector<V> axis = HingeTurn<V>.Axis(_batch, n);
-        axis.Store(_numbers, o, StartAxis);
         Lane<V> response = Lane<V>.Splat(0);
         Lane<V> speed = response;
         for (int side = 0; side < 2; side++)
@@ -413,57 +448,37 @@ internal sealed class AxisRows<V>
     }
 
     [MethodImpl(MethodImplOptions.NoInlining)]
-    private void WriteRow(int k, bool isDrift)
+    private void WriteRow(int k)
     {
         int n = _blocks[k];
         Lane<V> zero = Lane<V>.Splat(0);
-        Lane<V> kind = Load(k, Kind);
-        Lane<V> acts = isDrift ? kind : Lane<V>.Select(IsSpring(kind), zero, kind);
-        LaneVector<V> axis = LaneVector<V>.Select(acts, HingeTurn<V>.Axis(_batch, n), new LaneVector<V>(zero, zero, zero));
+        LaneVector<V> axis = LaneVector<V>.Select(Load(k, Kind), HingeTurn<V>.Axis(_batch, n), new LaneVector<V>(zero, zero, zero));
         int o = _batch.Row(n, _batch.Shape.Blocks[n].BilateralCount, 0);
         axis.Store(_batch.Angular, o);
         (-axis).Store(_batch.Angular, o, 3);
     }
 
-    // A limit: C at the end. A motor: its speed in the drift against its own. A spring: what its impulse leaves it.
+    // Of a drive its speed in the drift, the turn over the step, against its own: a motor's, or what a spring's impulse leaves it.
     [MethodImpl(MethodImplOptions.NoInlining)]
-    private void EvaluateRow(int k, double h)
+    private void EvaluateDrive(int k, double h)
     {
-        int w = Lane<V>.Width;
         int row = RowOf(k);
-        int o = Count * k * w;
-        Lane<V> kind = Load(k, Kind);
+        HingeTurn<V>.Measure(_batch, _blocks[k], _numbers, (Count * k + Cosine) * Lane<V>.Width);
+        Lane<V> c0 = Load(k, StartCosine), s0 = Load(k, StartSine), c1 = Load(k, Cosine), s1 = Load(k, Sine);
+        Lane<V> two = Lane<V>.Splat(2);
+        Lane<V> turn = two * LaneTrigonometry<V>.Atan((s1 * c0 - c1 * s0) / (Lane<V>.Splat(1) + (c1 * c0 + s1 * s0)));
         Lane<V> rest = Load(k, Compliance) * Lane<V>.Load(_batch.Work.PositionImpulses, row) - Load(k, Target);
-        Lane<V> error = Lane<V>.Splat(h) * (DriftSpeed(k) + rest);
-        bool isHeld = false;
-        for (int lane = 0; lane < w; lane++)
-        {
-            isHeld |= _numbers[o + lane] == Limit;
-        }
-
-        if (isHeld)
-        {
-            HingeTurn<V>.Measure(_batch, _blocks[k], _numbers, o + Cosine * w);
-            LaneTrigonometry<V>.Atan2(_numbers, o + Sine * w, _numbers, o + Cosine * w, _numbers, o + Turn * w);
-            Lane<V> end = Load(k, Held);
-            Lane<V> left = end - LaneTrigonometry<V>.Nearest(Load(k, Turn), end);
-            Lane<V> isSpringOrMotor = Lane<V>.Abs(kind - Lane<V>.Splat(Limit));
-            error = Lane<V>.Select(isSpringOrMotor, error, left);
-        }
-
-        Lane<V>.Select(kind, error, Lane<V>.Splat(0)).Store(_batch.Work.Error, row);
+        Lane<V>.Select(Load(k, Kind), Lane<V>.Splat(h) * rest - turn, Lane<V>.Splat(0)).Store(_batch.Work.Error, row);
     }
 
-    // The axis turns with the bodies: the mean of the start's and the end's gives the mean speed to second order.
-    private Lane<V> DriftSpeed(int k)
+    // Of a limit the sine of what the turn is short of its end.
+    [MethodImpl(MethodImplOptions.NoInlining)]
+    private void EvaluateLimit(int k)
     {
-        int n = _blocks[k];
-        int[] bodies = _batch.Shape.Blocks[n].Bodies;
-        LaneVector<V> axis = Lane<V>.Splat(0.5) * (LaneVector<V>.Load(_numbers, (Count * k + StartAxis) * Lane<V>.Width) + HingeTurn<V>.Axis(_batch, n));
-        return LaneVector<V>.Dot(axis, Rate(bodies[0])) - LaneVector<V>.Dot(axis, Rate(bodies[1]));
+        HingeTurn<V>.Measure(_batch, _blocks[k], _numbers, (Count * k + Cosine) * Lane<V>.Width);
+        Lane<V> left = Load(k, EndSine) * Load(k, Cosine) - Load(k, EndCosine) * Load(k, Sine);
+        Lane<V>.Select(Load(k, Kind), left, Lane<V>.Splat(0)).Store(_batch.Work.Error, RowOf(k));
     }
-
-    private LaneVector<V> Rate(int body) => LaneVector<V>.Load(_batch.Bodies, LaneRecords<V>.Body(body, BodyLanes.W));
 
     [MethodImpl(MethodImplOptions.NoInlining)]
     private void GiveRest(int k)

@@ -201,7 +201,7 @@ internal sealed class Island
         }
 
         RowBlock[] plain = Array.ConvertAll(Blocks, block => block.InLanes(Blocks, holdsLimits));
-        return (IsInconsistent && Array.Exists(plain, block => block.HasAxisRow)) || Array.Exists(plain, block => block.IsAssembled || block.Rows == 0) ? null : new Island(Bodies, MovingBodies, plain, _inverseInertias) { Loops = Loops };
+        return ((IsInconsistent || Hubs.Length > 0) && Array.Exists(plain, block => block.HasAxisRow)) || Array.Exists(plain, block => block.IsAssembled || block.Rows == 0) ? null : new Island(Bodies, MovingBodies, plain, _inverseInertias) { Loops = Loops };
     }
 
     /// <summary>Whether the other island is of the same build, so that both can share lanes.</summary>
@@ -258,7 +258,7 @@ internal sealed class Island
         var rated = new SortedSet<int>();
         foreach (RowBlock block in blocks)
         {
-            if (block.ScalarCount > 0 || block.HasAxisRow)
+            if (block.ScalarCount > 0)
             {
                 rated.UnionWith(block.Bodies);
             }

@@ -52,7 +52,8 @@ internal class LaneRecords<V>
         Linear = new double[3 * sides * w];
         Angular = new double[3 * sides * w];
         Matrix = new double[shape.Pattern.Length * w];
-        Assembled = shape.Hubs.Length > 0 ? new double[Matrix.Length] : Array.Empty<double>();
+        bool isKept = shape.Hubs.Length > 0 || Array.Exists(shape.Blocks, block => block.IsAxisDriven);
+        Assembled = isKept ? new double[Matrix.Length] : Array.Empty<double>();
         VelocityImpulses = new double[shape.RowCount * w];
         if (shape.ScalarCount > 0)
         {
@@ -98,7 +99,7 @@ internal class LaneRecords<V>
     /// <summary>A = J M^-1 J^T, then its factor.</summary>
     public double[] Matrix { get; }
 
-    /// <summary>A before it was factored, for the refinement of what is solved with hubs; empty without them.</summary>
+    /// <summary>A before it was factored, for the refinement of what is solved with hubs, and for springs, which answer in the drift alone; empty without both.</summary>
     public double[] Assembled { get; }
 
     /// <summary>Impulses of the velocity projection, by which the next step starts.</summary>

@@ -150,6 +150,19 @@ internal static class LaneTransfer<V>
         }
     }
 
+    /// <summary>What <see cref="Gather"/> and <see cref="BeginStep"/> have found, into a batch of the same bodies.</summary>
+    public static void CopyStart(LaneRecords<V> from, LaneRecords<V> to)
+    {
+        for (int b = 0; b < from.Shape.Bodies.Length; b++)
+        {
+            Copy(BodyLanes.X, BodyLanes.EndX - BodyLanes.X);
+            Copy(BodyLanes.W, BodyLanes.R - BodyLanes.W);
+            Copy(BodyLanes.Acceleration, BodyLanes.Stiffness - BodyLanes.Acceleration);
+
+            void Copy(int slot, int count) => Array.Copy(from.Bodies, LaneRecords<V>.Body(b, slot), to.Bodies, LaneRecords<V>.Body(b, slot), count * Lane<V>.Width);
+        }
+    }
+
     /// <summary>A lane's state at the end of a step, and the guess it leaves for the next, into another batch's lane, of the rows that both have.</summary>
     public static void CopyLane<S>(LaneRecords<V> batch, int lane, LaneRecords<S> from, int fromLane)
         where S : struct, ILane<S>
@@ -164,6 +177,8 @@ internal static class LaneTransfer<V>
             {
                 batch.Bodies[to + i * w] = from.Bodies[source + i * s];
             }
+
+            batch.Bodies[to + BodyLanes.Stiffness * w] = from.Bodies[source + BodyLanes.Stiffness * s];
         }
 
         for (int n = 0; n < batch.Shape.Blocks.Length; n++)

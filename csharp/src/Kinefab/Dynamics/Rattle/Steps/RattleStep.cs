@@ -35,7 +35,7 @@ internal static class RattleStep<V>
 
         batch.CompliantStep = batch.Shape.IsInconsistent ? h : 0;
         batch.ActiveSet?.Begin(h, tolerance, false);
-        batch.Axes?.WriteRows(true);
+        batch.Axes?.WriteRows();
         Kick(batch, h / 2);
         Array.Copy(batch.VelocityImpulses, batch.Work.PositionImpulses, batch.VelocityImpulses.Length);
         Impulses<V>.Apply(batch, batch.Work.PositionImpulses);
@@ -43,7 +43,11 @@ internal static class RattleStep<V>
         {
             FactorForDrift(batch, batch.ActiveSet);
         }
-        else if (batch.Shape.IsInconsistent || (batch.Axes != null && !batch.Axes.IsFactoredForDrift()))
+        else if (batch.Axes != null)
+        {
+            FactorForDrift(batch, batch.Axes);
+        }
+        else if (batch.Shape.IsInconsistent)
         {
             Factor(batch, true);
         }
@@ -182,10 +186,34 @@ internal static class RattleStep<V>
     public static void Factor(LaneBatch<V> batch, bool isDrift)
     {
         batch.ActiveSet?.WriteRows(false);
-        batch.Axes?.WriteRows(isDrift);
+        batch.Axes?.WriteRows();
         DelassusMatrix<V>.Assemble(batch, batch.Shape.IsInconsistent && !isDrift ? DelassusMatrix<V>.UnconstrainedShare : batch.AngularShare);
         batch.ActiveSet?.AddToDiagonal(isDrift);
-        batch.Axes?.AddToDiagonal(isDrift);
+        if (batch.Axes != null)
+        {
+            DelassusMatrix<V>.Keep(batch);
+            batch.Axes.AddToDiagonal(isDrift);
+        }
+
+        DelassusMatrix<V>.Factor(batch);
+    }
+
+    // The same of lanes; where springs act the matrix is the projection's but for what they have on the diagonal.
+    private static void FactorForDrift(LaneBatch<V> batch, AxisRows<V> axes)
+    {
+        if (axes.IsFactoredForDrift())
+        {
+            return;
+        }
+
+        if (!axes.IsAssembledForDrift())
+        {
+            Factor(batch, true);
+            return;
+        }
+
+        Array.Copy(batch.Assembled, batch.Matrix, batch.Matrix.Length);
+        axes.AddToDiagonal(true);
         DelassusMatrix<V>.Factor(batch);
     }
 

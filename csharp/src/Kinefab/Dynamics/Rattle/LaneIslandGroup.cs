@@ -148,11 +148,21 @@ internal sealed class LaneIslandGroup<V> : IslandGroup
         resting.Drift(dt, tolerance);
         resting.Project(dt, tolerance);
         resting.End(dt);
+        bool areAll = resting.AreAllActive;
+        if (areAll)
+        {
+            free.TakeOver(resting.Batch);
+        }
+
         for (int lane = 0; lane < free.Occupied; lane++)
         {
             if (resting.IsActive(lane))
             {
-                free.TakeOver(lane, resting.Batch, lane);
+                if (!areAll)
+                {
+                    free.TakeOver(lane, resting.Batch, lane);
+                }
+
                 Forget(index, lane, false);
             }
         }

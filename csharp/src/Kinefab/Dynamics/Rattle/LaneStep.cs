@@ -54,6 +54,9 @@ internal sealed class LaneStep<V>
     /// <summary>Whether its step was made elsewhere.</summary>
     public bool IsTakenOver(int lane) => _isTakenOver[lane];
 
+    /// <summary>Whether every lane with an island takes part.</summary>
+    public bool AreAllActive => Array.IndexOf(_isAlone, true, 0, Occupied) < 0;
+
     public bool IsActive(int lane) => !_isAlone[lane];
 
     /// <summary>Whether a body of the lane is not where the last step left it.</summary>
@@ -230,6 +233,13 @@ internal sealed class LaneStep<V>
     {
         LaneTransfer<V>.CopyLane(Batch, lane, from, fromLane);
         _isTakenOver[lane] = true;
+    }
+
+    /// <summary>The steps of all lanes were made elsewhere, in the same lanes.</summary>
+    public void TakeOver(LaneBatch<V> from)
+    {
+        LaneTransfer<V>.CopyLanes(Batch, from);
+        Array.Fill(_isTakenOver, true);
     }
 
     /// <summary>What the next step takes from those before it.</summary>

@@ -141,21 +141,41 @@ internal sealed class AxisRows<V>
         return true;
     }
 
-    /// <summary>Whether the matrix has the same rows as the drift: but for what springs have on the diagonal it is the drift's.</summary>
-    public bool IsAssembledForDrift()
+    /// <summary>Whether a lane has a spring, for which the matrix is wanted again in the drift.</summary>
+    public bool HasSprings()
     {
+        int w = Lane<V>.Width;
+        bool isAny = false;
         for (int k = 0; k < _blocks.Length; k++)
         {
-            for (int lane = 0; lane < Lane<V>.Width; lane++)
+            for (int lane = 0; lane < w; lane++)
             {
-                if (_numbers[Count * k * Lane<V>.Width + lane] != _factored[k * Lane<V>.Width + lane])
+                isAny |= _numbers[Count * k * w + lane] == Spring;
+            }
+        }
+
+        return isAny;
+    }
+
+    /// <summary>Whether the kept matrix has the same rows as the drift: but for what springs have on the diagonal it is the drift's.</summary>
+    public bool IsKeptForDrift()
+    {
+        int w = Lane<V>.Width;
+        bool isKept = false;
+        for (int k = 0; k < _blocks.Length; k++)
+        {
+            for (int lane = 0; lane < w; lane++)
+            {
+                double kind = _factored[k * w + lane];
+                isKept |= kind == Spring;
+                if (_numbers[Count * k * w + lane] != kind)
                 {
                     return false;
                 }
             }
         }
 
-        return _batch.Assembled.Length > 0;
+        return isKept;
     }
 
     /// <summary>J of the rows where the frames were last placed, 0 where there is none.</summary>

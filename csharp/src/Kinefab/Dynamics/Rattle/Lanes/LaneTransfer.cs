@@ -193,6 +193,27 @@ internal static class LaneTransfer<V>
         }
     }
 
+    /// <summary>The same of all lanes, into a batch of the same islands.</summary>
+    public static void CopyLanes(LaneRecords<V> batch, LaneRecords<V> from)
+    {
+        int w = Lane<V>.Width;
+        for (int b = 0; b < batch.Shape.Bodies.Length; b++)
+        {
+            int o = LaneRecords<V>.Body(b, 0);
+            Array.Copy(from.Bodies, o, batch.Bodies, o, BodyLanes.InverseMass * w);
+            Lane<V>.Load(from.Bodies, o, BodyLanes.Stiffness).Store(batch.Bodies, o, BodyLanes.Stiffness);
+        }
+
+        for (int n = 0; n < batch.Shape.Blocks.Length; n++)
+        {
+            int row = from.Shape.Pattern.Rows[n] * w;
+            int at = batch.Shape.Pattern.Rows[n] * w;
+            int count = batch.Shape.Blocks[n].BilateralCount * w;
+            Array.Copy(from.VelocityImpulses, row, batch.VelocityImpulses, at, count);
+            Array.Copy(from.Work.TotalImpulses, row, batch.Work.TotalImpulses, at, count);
+        }
+    }
+
     /// <summary>The guess that a lane's last step has left for the bilateral rows, and the stiffness that it found, into another batch.</summary>
     public static void CopyGuess<S>(LaneRecords<V> batch, int lane, LaneRecords<S> to, int toLane)
         where S : struct, ILane<S>

@@ -189,11 +189,12 @@ internal static class RattleStep<V>
         batch.Axes?.WriteRows();
         DelassusMatrix<V>.Assemble(batch, batch.Shape.IsInconsistent && !isDrift ? DelassusMatrix<V>.UnconstrainedShare : batch.AngularShare);
         batch.ActiveSet?.AddToDiagonal(isDrift);
-        if (batch.Axes != null)
+        if (batch.Axes != null && batch.Axes.HasSprings())
         {
             DelassusMatrix<V>.Keep(batch);
-            batch.Axes.AddToDiagonal(isDrift);
         }
+
+        batch.Axes?.AddToDiagonal(isDrift);
 
         DelassusMatrix<V>.Factor(batch);
     }
@@ -206,7 +207,7 @@ internal static class RattleStep<V>
             return;
         }
 
-        if (!axes.IsAssembledForDrift())
+        if (!axes.IsKeptForDrift())
         {
             Factor(batch, true);
             return;

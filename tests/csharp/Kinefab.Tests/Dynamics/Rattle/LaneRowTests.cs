@@ -60,6 +60,46 @@ internal sealed class LaneRowTests
         Assert.That(Moved(8), Is.EqualTo(alone), "8 lanes");
     }
 
+    [Test]
+    public void Rows_OfManyKindsInOneGroup_GiveTheSameBitsInAnyNumberOfLanes()
+    {
+        List<long> alone = Run(Mixed(), 1);
+        Assert.That(Run(Mixed(), 4), Is.EqualTo(alone), "4 lanes");
+        Assert.That(Run(Mixed(), 8), Is.EqualTo(alone), "8 lanes");
+    }
+
+    // A spring and limits on a ConfigurableJoint's twist, a motor that comes to its force limit, limits that throw back; axes askew, bodies in either order.
+    private static MultibodySystem Mixed()
+    {
+        var builder = new MechanismBuilder();
+        for (int i = 0; i < Islands; i++)
+        {
+            var origin = new Vector3d(0, 0, i);
+            var axis = new Vector3d(0.2, 0.01 * i, 1);
+            Vector3d next = origin + new Vector3d(0.3, -0.4, 0.05), last = next + new Vector3d(0.1, -0.3, -0.02 * i);
+            int upper = builder.Bar(origin, next, 1 + 0.1 * i), lower = builder.Bar(next, last, 0.4);
+            var d6 = new D6Joint
+            {
+                Twist = AxisMotion.Limited,
+                TwistLimit = new AngularLimit { Lower = -0.4 - 0.02 * i, Upper = 1.2, Response = new LimitResponse { Restitution = i % 2 == 0 ? 0.5 : 0 } },
+                DriveTwist = new DriveModel { Stiffness = 2 + i, Damping = 0.05 * i, ForceLimit = 1000, IsAcceleration = i % 3 == 0 },
+                DrivePose = new Pose(Vector3d.Zero, Quaterniond.AxisAngle(Vector3d.UnitX, 0.1 * i)),
+            };
+            builder.Add(d6, JointModel.World, upper, origin, axis);
+            RevoluteJoint hinge = builder.Hinge(lower, upper, next, axis);
+            hinge.LimitEnabled = true;
+            hinge.Limit = new AngularLimit { Lower = -0.3, Upper = 0.5 };
+            int third = builder.Bar(last, last + new Vector3d(0, -0.2, 0), 0.2);
+            RevoluteJoint motor = builder.Hinge(lower, third, last, new Vector3d(1, 0.3, 0.1));
+            motor.MotorEnabled = true;
+            motor.MotorVelocity = 1 - 0.2 * i;
+            motor.MotorForceLimit = 0.02 * (i + 1);
+            motor.MotorFreeSpin = i % 4 == 1;
+        }
+
+        return builder.Build();
+    }
+
     // Bits of all poses and speeds after every step, and of the reactions.
     private static List<long> Run(MultibodySystem mechanism, int lanes, Action<MultibodySystem, int>? before = null)
     {

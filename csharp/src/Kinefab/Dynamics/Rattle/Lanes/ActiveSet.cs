@@ -249,7 +249,9 @@ internal sealed partial class ActiveSet<V>
         {
             ref ScalarRow scalar = ref _rows[i];
             bool isThere = scalar.IsActive && scalar.Kind != RowKind.None && (isAll || scalar.State == RowState.Free);
-            AssembledRows<V>.Write(_batch, scalar.Block, scalar.BlockRow, scalar.Built, isThere ? 1 : 0);
+
+            // Not 0 times a row that is not there: what a failed attempt left of it may be no number.
+            AssembledRows<V>.Write(_batch, scalar.Block, scalar.BlockRow, isThere ? scalar.Built : default, 1);
         }
     }
 

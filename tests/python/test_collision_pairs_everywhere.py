@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import json
-import random
 import xml.etree.ElementTree as xml
 from dataclasses import replace
 from itertools import combinations
@@ -12,11 +11,14 @@ from pathlib import Path
 import kinefab
 import numpy as np
 import pytest
-import trimesh
+from gltf_pairs import GltfPairs
 from kinefab.diagnostics import Report
-from kinefab.model import AnimationClip, Constraint, Coupling, Joint, Node, NodeKind
+from kinefab.geometry.looks.gltf_document import gltf_document
+from kinefab.model import AnimationClip, Collider, ColliderKind, Constraint, Coupling, Joint, Node, NodeKind
 from kinefab.pipeline import prepared
 from kinefab.spatial import Pose
+from random_machines import Machine, built_machine, standing_machine
+from stage_pairs import StagePairs
 
 ROOT = Path(__file__).parents[2]
 BUNDLES = sorted((ROOT / "fixtures").glob("*/*.bundle.json"))
@@ -26,6 +28,7 @@ BESIDE = {
     *("lock_orientation", "linear", "other", "ground"),
 }
 """Kinds that say nothing of one body standing in another (``schemas/SPEC.md``, section 7)."""
+LOCKS = ("Locked", "Limited")
 Pair = frozenset[int]
 
 
@@ -60,13 +63,15 @@ class Written:
         found = {self.body[a], self.body[b]}
         return None if len(found) < 2 or None in found or found <= self.led else frozenset(found)  # pyright: ignore
 
-    def apart(self, among: set[int], holding: bool = True) -> set[Pair]:
-        """Pairs of bodies that a joint keeps from colliding.  holding: also those of joints that hold something."""
+    def apart(self, among: set[int], holding: bool = True, counting: bool = True) -> set[Pair]:
+        """Pairs of bodies that a joint keeps from colliding.  holding: also those of joints that hold something.
+        counting: also those of joints that hold nothing, whose angle a coupling counts."""
         found = {
             self.pair(i, c["connectedBody"])
             for i, c in self.components("HingeJoint", "ConfigurableJoint")
             if "connectedBody" in c and not c.get("enableCollision", False)
             if holding or "apart" in c.get("extras", {})
+            if counting or "apart" in c.get("extras", {}) or c["type"] != "ConfigurableJoint" or any(word in c.values() for word in LOCKS)
         }
         bodies = {self.body[i] for i in among}
         return {pair for pair in found if pair is not None and pair <= bodies}
@@ -174,10 +179,10 @@ def twice(scene: kinefab.Scene) -> kinefab.Scene:
     )
 
 
-def passing(scene: Written, parts: set[str]) -> set[frozenset[str]]:
-    """Pairs of parts that a joint keeps from colliding, by their ids."""
+def passing(scene: Written, parts: set[str], counting: bool = True) -> set[frozenset[str]]:
+    """Pairs of parts that a joint keeps from colliding, by their ids.  counting: also one that is there for an angle alone."""
     there = [i for i, entry in enumerate(scene.objects) if entry["id"].removeprefix(COPY) in parts]
-    kept = scene.apart(set(there))
+    kept = scene.apart(set(there), counting=counting)
     return {
         frozenset((scene.objects[a]["id"], scene.objects[b]["id"]))
         for a, b in combinations(there, 2)
@@ -195,32 +200,55 @@ def test_of_two_machines_neither_passes_the_other(source: Path, tmp_path: Path):
     assert passing(exported(twice(scene), tmp_path), parts) == alone | copied
 
 
+BOX = Collider(ColliderKind.BOX, size=(0.1, 0.1, 0.1))
+
+
+def shaped(source: Path) -> tuple[kinefab.Scene, set[str]]:
+    """The source's scene, in which each part collides, and its parts."""
+    scene = prepared(source, kinefab.ExportOptions(), Report())
+    for i, node in enumerate(scene.nodes):
+        if node.kind is NodeKind.PART and not node.bodies and not node.colliders:
+            scene.nodes[i] = replace(node, colliders=(BOX,))
+    return scene, {node.id for node in scene.nodes if node.kind is NodeKind.PART}
+
+
 @pytest.mark.parametrize("seed", range(30))
 def test_random_machines_pass_their_own_bases_alone(seed: int, tmp_path: Path):
-    """Trees of boxes on bases of one or several parts; a joint's two rigid groups pass through each other, and no others."""
-    draw = random.Random(seed)
-    scene, box, count = kinefab.Scene(), trimesh.creation.box((0.1, 0.1, 0.1)), draw.randint(3, 9)
-    stands, groups, hinged = list[bool](), list(range(count)), list[tuple[int, int]]()
-    for i in range(count):
-        stands.append(draw.random() < 0.45)
-        at = tuple(draw.uniform(-9, 9) for _ in range(3))
-        scene.add_part(f"p{i}", box, translation=at, grounded=stands[i], mass=None if stands[i] else 1.0)
-        other = draw.randrange(i) if i else None
-        if other is None or stands[i]:
-            continue
-        if draw.random() < 0.3:
-            scene.add_fixed(other, i)
-            groups[i], stands[i] = groups[other], stands[other]
-        elif draw.random() < 0.15:
-            scene.add_hinge(None, i, point=(draw.uniform(-1, 1), 0, 0), axis=(0, 0, 1))
-        else:
-            scene.add_hinge(other, i, point=(draw.uniform(-1, 1), 0, 0), axis=(0, 0, 1))
-            hinged.append((other, i))
-    written = exported(scene, tmp_path)
-    expected = {
-        frozenset((f"p{a}", f"p{b}"))
-        for a, b in combinations(range(count), 2)
-        if groups[a] != groups[b] and not (stands[a] and stands[b])
-        if {groups[a], groups[b]} in [{groups[one], groups[other]} for one, other in hinged]
-    }
-    assert passing(written, {f"p{i}" for i in range(count)}) == expected
+    machine = standing_machine(seed)
+    written = exported(machine.scene, tmp_path)
+    assert passing(written, machine.parts) == machine.passing
+
+
+MACHINES = [*map(standing_machine, range(30)), *map(built_machine, range(30))]
+"""Of those with parts below parts it is the scene that says which is built onto which."""
+
+
+@pytest.mark.parametrize("machine", MACHINES, ids=range(len(MACHINES)))
+def test_gltf_says_the_pairs_of_random_machines(machine: Machine, tmp_path: Path):
+    kinefab.export(machine.scene, tmp_path / "a.glb", kinefab.ExportOptions(colliders="box"))
+    found = GltfPairs(gltf_document(tmp_path / "a.glb")).passing(machine.parts)
+    assert found == passing(exported(machine.scene, tmp_path), machine.parts)
+
+
+@pytest.mark.parametrize("machine", MACHINES, ids=range(len(MACHINES)))
+def test_a_stage_says_the_pairs_of_random_machines(machine: Machine, tmp_path: Path):
+    pytest.importorskip("pxr")
+    kinefab.export(machine.scene, tmp_path / "a.usda", kinefab.ExportOptions(colliders="box"))
+    found = StagePairs(tmp_path / "a.usda").passing(machine.parts)
+    assert found == passing(exported(machine.scene, tmp_path), machine.parts)
+
+
+@pytest.mark.parametrize("source", [*BUNDLES, *ROBOTS], ids=lambda path: path.name.removesuffix(".bundle.json"))
+def test_gltf_says_the_same_pairs(source: Path, tmp_path: Path):
+    scene, parts = shaped(source)
+    kinefab.export(scene, tmp_path / "a.glb", kinefab.ExportOptions(colliders="box"))
+    written = passing(exported(scene, tmp_path), parts, counting=False)
+    assert GltfPairs(gltf_document(tmp_path / "a.glb")).passing(parts) == written
+
+
+@pytest.mark.parametrize("source", [*BUNDLES, *ROBOTS], ids=lambda path: path.name.removesuffix(".bundle.json"))
+def test_a_stage_says_the_same_pairs(source: Path, tmp_path: Path):
+    pytest.importorskip("pxr")
+    scene, parts = shaped(source)
+    kinefab.export(scene, tmp_path / "a.usda", kinefab.ExportOptions(colliders="box"))
+    assert StagePairs(tmp_path / "a.usda").passing(parts) == passing(exported(scene, tmp_path), parts)

@@ -2,10 +2,14 @@
 
 from __future__ import annotations
 
+from collections.abc import Collection
 from typing import cast
 
 from ..diagnostics import Report
-from ..model import Scene, ignored_groups
+from ..model import Node, Scene, ignored_groups
+from ..rigid import RigidGroups, is_dynamic
+from ..unity.bodies.rigidbodies import place_rigidbodies
+from ..unity.bodies.standing import bases_of
 
 
 def ignored_pairs(scene: Scene) -> tuple[list[tuple[int, int]], list[str]]:
@@ -28,6 +32,44 @@ def ignored_pairs(scene: Scene) -> tuple[list[tuple[int, int]], list[str]]:
         else:
             unknown.append(" and ".join(ids))
     return found, unknown
+
+
+def base_pairs(scene: Scene, groups: RigidGroups) -> list[tuple[int, int]]:
+    """What moves, with each further part of the base that a joint has it on: the node that carries the one, and the other.
+
+    The part that the joint names, and what stands below that, is the joint's own affair.
+    """
+    carrier_of = place_rigidbodies(scene, groups).carrier_of
+    bases = bases_of(scene, groups)
+    parts: dict[int | None, list[int]] = {}
+    for i, own in enumerate(bases):
+        parts.setdefault(own, []).append(i)
+    found: dict[tuple[int, int], None] = {}
+    named = {side for joint in scene.joints for side in (joint.a, joint.b)}
+    for joint in scene.joints:
+        for mover, base in ((joint.a, joint.b), (joint.b, joint.a)):
+            if joint.collide or base is None or mover is None or not groups.is_ground(base):
+                continue
+            own = carrier_of[mover]
+            if own is not None and is_dynamic(scene, groups, own):
+                others = [part for part in parts[bases[base]] if not _is_below(scene, groups, named, part, base)]
+                found |= dict.fromkeys((own, part) for part in others if _touches(scene.nodes[part]))
+    return list(found)
+
+
+def _touches(node: Node) -> bool:
+    """Whether a node may have colliders of its own."""
+    if node.colliders is not None:
+        return bool(node.colliders)
+    return any(body.mesh is not None for body in node.bodies)
+
+
+def _is_below(scene: Scene, groups: RigidGroups, named: Collection[int | None], node: int, top: int) -> bool:
+    """Whether a part is of one body with what stands above it: with nothing between that moves or that joints name."""
+    at: int | None = node
+    while at is not None and at != top and groups.is_ground(at) and at not in named:
+        at = scene.nodes[at].parent
+    return at == top
 
 
 def tell_colliding(scene: Scene, report: Report, target: str) -> None:

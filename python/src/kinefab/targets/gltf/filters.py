@@ -12,7 +12,8 @@ from typing import Any
 from ...diagnostics import Report
 from ...model import Scene, ignored_groups
 from ...rigid import RigidGroups
-from ..filtering import ignored_pairs, tell_colliding
+from ...unity.bodies.standing import bases_of
+from ..filtering import base_pairs, ignored_pairs, tell_colliding
 
 System = tuple[str, tuple[int, ...]]
 """Group, "" for none, and the nodes that pairs name."""
@@ -24,8 +25,10 @@ class Filters:
 
     def __init__(self, scene: Scene, groups: RigidGroups, report: Report):
         self._scene, self._groups = scene, groups
+        self._bases = bases_of(scene, groups)
         tell_colliding(scene, report, TARGET)
         self._pairs, unknown = ignored_pairs(scene)
+        self._pairs += base_pairs(scene, groups)
         self._named = {node for pair in self._pairs for node in pair}
         self._members: dict[System, list[dict[str, Any]]] = {}
         for told in unknown:
@@ -39,10 +42,10 @@ class Filters:
 
     def _line(self, node: int) -> list[int]:
         """A node and those above it that move with it."""
-        own = self._groups.group_of[node]
+        own = self._groups.group_of[node], self._bases[node]
         found: list[int] = []
         at: int | None = node
-        while at is not None and self._groups.group_of[at] == own:
+        while at is not None and (self._groups.group_of[at], self._bases[at]) == own:
             found.append(at)
             at = self._scene.nodes[at].parent
         return found

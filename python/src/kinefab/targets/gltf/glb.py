@@ -19,6 +19,7 @@ from ...replacing import replacing
 from ...rigid import active_nodes, is_dynamic
 from ...spatial import Array, Pose, quaternion_from_matrix
 from ...unity.bodies.rigidbodies import body_dynamics, body_mass, parents_beside, place_rigidbodies
+from ...unity.bodies.standing import bases_of
 from ...unity.joints.coordinates import removes_nothing
 from ...unity.joints.passive import with_passive_drives
 from ..content import Content
@@ -342,6 +343,7 @@ class _Document:
             if joint.collide:
                 entry["enableCollision"] = True
             self._extend(frame, "joint", entry)
+        self._part_bases()
 
     def _stand(self, own: int | None, frame: int) -> None:
         """Make a side of a joint that is the ground a kinematic body, as Unity's Ground is: what is joined then does not collide,
@@ -350,6 +352,18 @@ class _Document:
             self._extend(frame, "motion", {"isKinematic": True})
         elif self.content.groups.is_ground(own) and own not in self.placed.carriers:
             self._extend(self.node_of[own], "motion", {"isKinematic": True})
+
+    def _part_bases(self) -> None:
+        """Make what stands below a base a body of its own where it is no part of that, whose body would take its colliders: parts of
+        another base, and what stands beside a moving body above it."""
+        groups, bases = self.content.groups, bases_of(self.scene, self.content.groups)
+        ends = [side for joint in self.scene.joints for side in (joint.a, joint.b)]
+        named = {bases[side] for side in ends if side is not None and groups.is_ground(side)}
+        parents = parents_beside(self.scene, groups, self.placed)
+        for i, (node, base, parent) in enumerate(zip(self.scene.nodes, bases, parents)):
+            above = None if parent is None else bases[parent]
+            if above in named and above != base and (base in named or parent != node.parent):
+                self._stand(i, self.node_of[i])
 
     def _tell_rest(self) -> None:
         for setting in fields(Physics):

@@ -33,12 +33,15 @@ class Bodies:
         return self.grounded[0] if self.grounded else None
 
     def carrier(self, node: int | None) -> int | None:
-        """The body that a joint's side belongs to; None for the world, which a single base stands for."""
-        if self.groups.is_ground(node):
-            found = None if node is None else self.inside[node]
-            return self.base if found is None and len(self.grounded) == 1 else found
-        assert node is not None
-        return self.moving.carrier_of[node]
+        """The body that a joint's side belongs to; None for the world."""
+        if node is None:
+            return None
+        return self.inside[node] if self.groups.is_ground(node) else self.moving.carrier_of[node]
+
+    def stand_in(self, coupled: bool) -> int | None:
+        """The body that a joint hangs on whose side is the world itself: a single base where couplings count by the joint, as engines
+        couple within one articulation.  It stays scenery to that joint: the two collide.  None for the world."""
+        return self.base if coupled and len(self.grounded) == 1 else None
 
     def dynamic(self, node: int) -> bool:
         """Whether forces move a node's body."""
@@ -53,6 +56,7 @@ def find_bodies(scene: Scene, groups: RigidGroups, joints: list[Joint]) -> Bodie
     """joints: those that are written."""
     moving = place_rigidbodies(scene, groups)
     named = {n for joint in joints for n in (joint.a, joint.b) if n is not None and groups.is_ground(n)}
+    partners = {groups.standing[n] for n in named}
     count = len(scene.nodes)
     holder: list[int | None] = [None] * count
     inside: list[int | None] = [None] * count
@@ -61,8 +65,10 @@ def find_bodies(scene: Scene, groups: RigidGroups, joints: list[Joint]) -> Bodie
         own = i if i in moving.carriers else moving.carrier_of[i]
         parent = node.parent
         still = own is None and groups.group_of[i] is not None
-        if still and parent is not None and inside[parent] in grounded:
-            own = inside[parent]  # a part of what the ground holds
+        above = None if parent is None else inside[parent]
+        another = groups.standing[i] in partners and (above is None or groups.standing[i] != groups.standing[above])
+        if still and above in grounded and not another:
+            own = above  # a part of what the ground holds
         elif i in named:
             grounded[i] = None
             own = i

@@ -12,7 +12,7 @@ from ...options import ColliderShape
 from ...spatial import Pose
 from .bodies import Bodies
 from .looks.materials import Materials
-from .looks.meshes import Meshes, Use
+from .looks.meshes import INSTANCED, Meshes, Use
 from .physics.colliders import (
     HULL,
     MESH,
@@ -44,7 +44,8 @@ class Shape:
 class Shapes:
     """drawn: the scene with normals.  scope: of physics materials.  shape: asked for where the source states no colliders.
     target: ending, for the report.
-    groups: paths of colliders by their collision group, as they are written."""
+    groups: paths of colliders by their collision group, as they are written.
+    colliders: for each node the paths of its colliders."""
 
     scene: Scene
     drawn: Scene
@@ -54,6 +55,7 @@ class Shapes:
     report: Report
     target: str
     groups: dict[str, list[str]] = field(default_factory=dict[str, "list[str]"])
+    colliders: list[list[str]] = field(default_factory=list["list[str]"])
     _chosen: Chosen = field(default_factory=Chosen)
     _materials: dict[PhysicsMaterial, str] = field(default_factory=dict[PhysicsMaterial, str])
 
@@ -65,10 +67,15 @@ class Shapes:
         uses = [shape.use for shapes in found for shape in shapes if shape.use is not None]
         meshes = Meshes(self.drawn, prototypes, materials, uses)
         for prim, shapes in zip(prims, found):
+            self.colliders.append([])
             for shape in shapes:
                 path = _write(prim, shape, meshes)
                 if shape.collider is not None and shape.collider.group:
                     self.groups.setdefault(shape.collider.group, []).append(path)
+                use = shape.use
+                if (shape.contact if use is None else use.contact) is not None:
+                    instanced = use is not None and meshes.instanced(use)
+                    self.colliders[-1].append(f"{path}/{INSTANCED}" if instanced else path)
             yield
 
     def _of(self, number: int, node: Node, active: bool) -> list[Shape]:

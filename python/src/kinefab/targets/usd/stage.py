@@ -75,7 +75,7 @@ class Stage:
             for i, _ in enumerate(shapes.write(self.prims, scopes[PROTOTYPES], materials, active)):
                 content.progress(0.8 * (i + 1) / len(self.prims))
             write_groups(scopes[GROUPS], shapes.groups, scene)
-            write_pairs(scene, self.prims, report, self.target)
+            write_pairs(content, bodies, self.prims, shapes.colliders, self.target)
             self._physics(root, scopes[JOINTS], bodies, joints)
             clips.write(self.layer, self.prims)
             for scope in scopes.values():
@@ -194,8 +194,9 @@ class Stage:
             edges.append(self._fixed(scope, connected, own))
         fixed = tuple(edges)
         writer = Joints(scene, bodies, scope, places, report, self.target)
+        coupled = {name for coupling in scene.couplings for name in coupling.joints}
         for joint, name in zip(joints, named):
-            edge = writer.begin(joint, name, content.findings.get(joint.id))
+            edge = writer.begin(joint, name, content.findings.get(joint.id), joint.id in coupled)
             if joint.enabled:
                 edges.append(edge)
         kinematic = {i for i in bodies.moving.carriers if not bodies.dynamic(i)}
@@ -203,7 +204,7 @@ class Stage:
         trees = mark_articulations(edges, kinematic.__contains__, self.prims.__getitem__, base)
         for edge in fixed:
             places.write_fixed(edge, edge.prim.path in trees.inward)
-        writer.finish(trees.inward)
+        writer.finish(trees)
         write_couplings(scene, writer.written, trees.first, report, self.target)
 
     def _fixed(self, scope: Prim, a: int | None, b: int) -> Edge:

@@ -31,15 +31,10 @@ def find_standing(
     named, to_world = _named(scene, groups)
     partners = {groups.standing[node] for node in named}
     kept = set[int | None]() if to_world else _kept(groups, parents, partners)
-    kept_nodes: list[bool] = []
+    kept_nodes = [base is not None and base in kept for base in bases_of(scene, groups)]
     holder: list[int | None] = []
     for i, (own, node) in enumerate(zip(groups.standing, scene.nodes)):
-        above = node.parent
-        built_on = (  # what stands below a part in the tree is built onto it
-            above is not None and kept_nodes[above] and scene.nodes[above].kind is NodeKind.PART and own not in partners
-        )
-        kept_nodes.append(own is not None and (own in kept or built_on))
-        carried = None if above is None else holder[above]
+        carried = None if node.parent is None else holder[node.parent]
         if own is None or kept_nodes[i] or not (named or to_world):
             holder.append(None)
         elif carried is not None and (own not in partners or own == groups.standing[carried]):
@@ -51,6 +46,20 @@ def find_standing(
         if own in partners and (holder[i] is not None or kept_nodes[i]):
             held.setdefault(own, {})[holder[i]] = None
     return Standing(tuple(holder), {node: tuple(held[groups.standing[node]]) for node in named})
+
+
+def bases_of(scene: Scene, groups: RigidGroups) -> list[int | None]:
+    """For each node that stands what it is a part of, as the lowest node of that: what is rigid with it other than by the ground, and,
+    unless a joint names that, the part below which it stands in the tree: it is built onto that."""
+    partners = {groups.standing[node] for node in _named(scene, groups)[0]}
+    found: list[int | None] = []
+    for own, node in zip(groups.standing, scene.nodes):
+        above = node.parent
+        if own is not None and own not in partners and above is not None and scene.nodes[above].kind is NodeKind.PART:
+            found.append(own if found[above] is None else found[above])
+        else:
+            found.append(own)
+    return found
 
 
 def _named(scene: Scene, groups: RigidGroups) -> tuple[set[int], bool]:

@@ -17,6 +17,10 @@ from ..prims import Prim
 from .materials import Materials, uv_name
 
 
+INSTANCED = "Mesh"
+"""Name of the one prim of a prototype."""
+
+
 @dataclass(frozen=True, slots=True)
 class Use:
     """One way in which a mesh is used.  surfaces: of its submeshes.  contact: what touches, None where nothing does.
@@ -52,7 +56,7 @@ class Meshes:
         if use not in self._prototypes:
             name = self._scene.meshes[use.mesh].name or "Mesh"
             prototype = self._scope.child(name, "Xform", prototype=True)
-            self._fill(prototype.child("Mesh", "Mesh"), use)
+            self._fill(prototype.child(INSTANCED, "Mesh", name=INSTANCED), use)
             self._prototypes[use] = prototype.path
         prim.refer(self._prototypes[use])
 

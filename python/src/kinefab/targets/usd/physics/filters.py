@@ -6,7 +6,9 @@ from collections.abc import Mapping, Sequence
 
 from ....diagnostics import Report
 from ....model import Scene, ignored_groups
-from ...filtering import ignored_pairs, tell_colliding
+from ...content import Content
+from ...filtering import base_pairs, ignored_pairs, tell_colliding
+from ..bodies import Bodies
 from ..prims import Prim
 
 
@@ -22,17 +24,25 @@ def write_groups(scope: Prim, members: Mapping[str, Sequence[str]], scene: Scene
             prim.relation("physics:filteredGroups", *others)
 
 
-def write_pairs(scene: Scene, prims: Sequence[Prim], report: Report, target: str) -> None:
-    """prims: of each node.  What names no node is told."""
+def write_pairs(
+    content: Content, bodies: Bodies, prims: Sequence[Prim], colliders: Sequence[Sequence[str]], target: str
+) -> None:
+    """prims: of each node.  colliders: paths, of each node.  What names no node is told.
+
+    UsdPhysics filters bodies and colliders: of what stands and is no body, as scenery and most of a base, each collider.
+    """
+    scene, report = content.scene, content.report
     tell_colliding(scene, report, target)
     pairs, unknown = ignored_pairs(scene)
     for told in unknown:
         report.dropped(
             f"filtered pair {told}", "TARGET_FIELD_DROPPED", field="what does not collide", target=target
         )
-    others: dict[int, list[int]] = {}
-    for first, second in pairs:
-        others.setdefault(first, []).append(second)
+    others: dict[int, dict[str, None]] = {}
+    for pair in (*pairs, *base_pairs(scene, content.groups)):
+        first, second = sorted(pair, key=lambda node: bodies.inside[node] is None)
+        still = bodies.inside[second] is None and colliders[second]
+        others.setdefault(first, {}).update(dict.fromkeys(still or [str(prims[second].path)]))
     for number, its in others.items():
         prims[number].apply("PhysicsFilteredPairsAPI")
-        prims[number].relation("physics:filteredPairs", *(prims[other].path for other in its))
+        prims[number].relation("physics:filteredPairs", *its)

@@ -34,7 +34,7 @@ from ....unity.joints.limits import feature_of, report_gap
 from ....unity.joints.passive import with_passive_drives
 from ..bodies import Bodies
 from ..prims import Prim, quaternion32, quaternion64, rounded, vector3d, vector3f
-from .articulations import Edge
+from .articulations import Edge, Trees
 from .freedoms import (
     DOFS,
     bound,
@@ -121,8 +121,8 @@ class Joints:
     written: dict[str, WrittenJoint] = field(default_factory=dict[str, WrittenJoint])
     _begun: list[_Begun] = field(default_factory=list[_Begun])
 
-    def begin(self, joint: Joint, name: str, finding: JointFinding | None) -> Edge:
-        """Make the joint's prim, whose sides are known when all joints are.  name: of the prim."""
+    def begin(self, joint: Joint, name: str, finding: JointFinding | None, coupled: bool) -> Edge:
+        """Make the joint's prim, whose sides are known when all joints are.  name: of the prim.  coupled: couplings count by it."""
         bare, passives = _passive_apart(joint)
         shape = canonical(with_passive_drives(bare, self.report))
         values = self._standing(joint, shape)
@@ -131,9 +131,10 @@ class Joints:
         prim.tell_source(joint.id)
         free = unlocked_of(shape.freedoms)
         breaks = math.isfinite(joint.break_force) or math.isfinite(joint.break_torque)
+        world = self.bodies.stand_in(coupled)
         edge = Edge(
-            self.bodies.carrier(joint.a),
-            self.bodies.carrier(joint.b),
+            world if joint.a is None else self.bodies.carrier(joint.a),
+            world if joint.b is None else self.bodies.carrier(joint.b),
             prim,
             fits=(len(free) <= 1 or all(i >= RX for i in free)) and not breaks,
             closing=finding is not None and finding.closure,
@@ -142,10 +143,25 @@ class Joints:
         self._begun.append(_Begun(joint, edge, shape, passives, values, kind))
         return edge
 
-    def finish(self, inward: Collection[Any]) -> None:
-        """Write what was begun.  inward: paths of joints whose second body is nearer to the root."""
+    def finish(self, trees: Trees) -> None:
+        """Write what was begun."""
         for begun in self._begun:
-            self._finish(begun, begun.edge.exchanges and begun.edge.prim.path in inward)
+            path = begun.edge.prim.path
+            self._finish(begun, begun.edge.exchanges and path in trees.inward)
+            self._write_contact(begun, path in trees.first)
+
+    def _write_contact(self, begun: _Begun, linked: bool) -> None:
+        """Whether the joint's two bodies collide.  linked: it is in an articulation."""
+        joint, edge = begun.joint, begun.edge
+        on_base = None in (joint.a, joint.b) and None not in (edge.a, edge.b)
+        if not joint.collide and not on_base:
+            return
+        edge.prim.attribute("physics:collisionEnabled", "Bool", True)
+        if linked:
+            self.report.approximated(
+                f"contact at joint {joint.id}", "TARGET_FEATURE_APPROXIMATED", joint.where, target=self.ending,
+                detail="that its two bodies collide stands there, and PhysX never lets neighbours of one articulation",
+            )  # fmt: skip
 
     def _finish(self, begun: _Begun, exchanged: bool) -> None:
         joint, prim, shape, values = begun.joint, begun.edge.prim, begun.shape, begun.values
@@ -175,8 +191,6 @@ class Joints:
             prim.numbers({"physics:breakForce": joint.break_force})
         if math.isfinite(joint.break_torque):
             prim.numbers({"physics:breakTorque": joint.break_torque})
-        if joint.collide:
-            prim.attribute("physics:collisionEnabled", "Bool", True)
         if joint.enabled:
             self.report.kept(f"joint {joint.id}", joint.where)
         else:

@@ -116,4 +116,5 @@ def _with_bodies(groups: RigidGroups, more: int) -> RigidGroups:
         (*groups.group_of, *range(count, count + more)),
         (*groups.members, *((nodes + i,) for i in range(more))),
         (*groups.grounded, *[False] * more),
+        (*groups.standing, *[None] * more),
     )

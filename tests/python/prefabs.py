@@ -65,6 +65,10 @@ def main(folder: Path, kind: str) -> int:
     if kind == "links":
         options = LINKS
         sources["lever urdf"] = FIXTURES / "lever/lever.urdf"
+    elif kind == "asked":  # the scene by joints, of which the import makes links
+        writing |= LINKS.writing
+        sources |= {f"{path.parent.name} {path.name}": path for path in MORE}
+        options = kinefab.ExportOptions(colliders="box")  # else hulls here, and there the meshes that Unity makes hulls of
     elif kind == "clips":
         sources = {scene.stem: scene for scene in sorted(CLIPS.glob("*.kinefab"))}
     elif kind in PIPELINES:

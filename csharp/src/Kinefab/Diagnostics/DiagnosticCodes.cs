@@ -395,4 +395,40 @@ public static class DiagnosticCodes
 
     /// <summary>Only {count} changes were tried: the scene is large or the limit is low.</summary>
     public const string AdviceTrialsSpent = "ADVICE_TRIALS_SPENT";
+
+    /// <summary>Coupling {coupling} needs joint {joint}, which has no component with that freedom.</summary>
+    public const string CouplingWithoutJoint = "COUPLING_WITHOUT_JOINT";
+
+    /// <summary>Joint {joint} is switched off, and {target} has no place for such a joint; it is left out.</summary>
+    public const string JointDisabledDropped = "JOINT_DISABLED_DROPPED";
+
+    /// <summary>Joint {joint} has a dry friction of {value}; it is the link's jointFriction, a coefficient that grows with the joint's load.</summary>
+    public const string JointFrictionCoefficient = "JOINT_FRICTION_COEFFICIENT";
+
+    /// <summary>Joint {joint} has an armature of {value} on {freedom}; Unity's joints have none.</summary>
+    public const string JointArmatureDropped = "JOINT_ARMATURE_DROPPED";
+
+    /// <summary>Joint {joint} states a largest {limits} of {freedom} and no drive that keeps to it.</summary>
+    public const string JointEffortDropped = "JOINT_EFFORT_DROPPED";
+
+    /// <summary>{target} has no place for {field} of {feature}.</summary>
+    public const string TargetFieldDropped = "TARGET_FIELD_DROPPED";
+
+    /// <summary>The {feature} is not quite kept in {target}: {detail}.</summary>
+    public const string TargetFeatureApproximated = "TARGET_FEATURE_APPROXIMATED";
+
+    /// <summary>Joint {joint} cannot be one of an articulation: {detail}.</summary>
+    public const string ArticulationImpossible = "ARTICULATION_IMPOSSIBLE";
+
+    /// <summary>Joint {joint} closes a loop; it is on the body {object}, which is fixed to its link.</summary>
+    public const string ArticulationLoopHelper = "ARTICULATION_LOOP_HELPER";
+
+    /// <summary>The articulation that begins with {object} has {count} links; PhysX 4.1, on which Unity's articulations are built, has room for 64.</summary>
+    public const string ArticulationLinksMany = "ARTICULATION_LINKS_MANY";
+
+    /// <summary>Unity moves convex shapes only; {collider} is the convex hull of its mesh.</summary>
+    public const string ColliderMeshAsHull = "COLLIDER_MESH_AS_HULL";
+
+    /// <summary>The mesh of {collider} is flat and has no convex hull; the box about it collides.</summary>
+    public const string ColliderFlatAsBox = "COLLIDER_FLAT_AS_BOX";
 }

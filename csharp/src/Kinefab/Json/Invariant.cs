@@ -8,4 +8,6 @@ internal static class Invariant
     internal static string Text(long value) => value.ToString(CultureInfo.InvariantCulture);
 
     internal static string Text(double value) => value.ToString("R", CultureInfo.InvariantCulture);
+
+    internal static bool TryNumber(string text, out double value) => double.TryParse(text, NumberStyles.Float, CultureInfo.InvariantCulture, out value);
 }

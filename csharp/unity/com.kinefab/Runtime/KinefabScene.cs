@@ -37,11 +37,12 @@ namespace KinefabUnity
             {
                 ValidScene scene = load();
                 KinefabFinding.Add(scene.Report, found);
-                KinefabFinding.AddLosses(scene.Document, found);
                 settings = settings ?? new KinefabSettings();
-                var builder = new SceneBuilder(Ground.Apply(scene, settings.ground, found), settings, found);
+                scene = Articulation.Apply(Ground.Apply(scene, settings.ground, found), settings.physics, found);
+                KinefabFinding.AddLosses(scene.Document, found);
+                var builder = new SceneBuilder(scene, settings, found);
                 root = builder.Build(ObjectNames.Plain(name), parent);
-                builder.Move(KinefabSource.Of(text(), settings.ground));
+                builder.Move(KinefabSource.Of(text(), settings));
             }
             catch (SceneFormatException fault)
             {

@@ -3,7 +3,9 @@ using System.Collections.Generic;
 using System.IO;
 using System.Linq;
 using System.Text.Json.Nodes;
+using System.Text.RegularExpressions;
 using Kinefab.Tests.Conformance;
+using Kinefab.Numerics;
 using KinefabUnity;
 using NUnit.Framework;
 using Unity = UnityEngine;
@@ -73,15 +75,88 @@ public sealed class PhysicsImportTests
         Assert.That(aimed, Is.EqualTo(asked.Select(Math.Abs)).Within(1e-3));
     }
 
+    // The loop stays closed by joints on helper bodies; sliders, couplings and findings are those of the links.
     [Test]
-    public void Articulation_OfAFileWithJoints_SaysThatTheExportMakesIt()
+    public void Articulation_OfAFileWithJoints_IsWhatTheExportMakes()
+    {
+        ImportedAsset asset = ImportedAsset.Of(PlayedMechanism.Full("lever/lever.kinefab"), new KinefabSettings { physics = KinefabPhysics.Articulation });
+        Assert.That((asset.Context.Errors, All<Unity.HingeJoint>(asset).Length), Is.EqualTo((Array.Empty<string>(), 0)));
+        Unity.ArticulationBody[] links = All<Unity.ArticulationBody>(asset);
+        Assert.That(links.Count(l => l.immovable), Is.EqualTo(1));
+        Assert.That(links.Where(l => !l.immovable).Select(l => l.transform.parent.GetComponent<Unity.ArticulationBody>() != null), Is.All.True);
+        Assert.That(All<Unity.Rigidbody>(asset).Select(b => b.name), Is.All.EndsWith("closure").And.Not.Empty);
+        Assert.That(asset.Source.Findings.Count(f => f.code == "ARTICULATION_LOOP_HELPER"), Is.EqualTo(All<Unity.Rigidbody>(asset).Length));
+        Assert.That(asset.Codes, Has.None.EqualTo("UNITY_PHYSICS_AS_EXPORTED"));
+        Assert.That(ImportedAsset.Of(Arm, new KinefabSettings { physics = KinefabPhysics.Articulation }).Codes, Has.None.StartsWith("ARTICULATION").And.None.EqualTo("UNITY_PHYSICS_AS_EXPORTED"));
+        Assert.That(ImportedAsset.Of(Arm).Source.DescribePhysics(), Is.EqualTo("7 ArticulationBodies and 0 joints"));
+    }
+
+    [Test]
+    public void Articulation_ThatCannotHoldAJoint_NamesItAndKeepsTheJoints()
     {
         using var scene = new EditedScene();
+        JsonObject joint = scene.Objects.SelectMany(o => o!["components"]?.AsArray() ?? []).Select(c => c!.AsObject()).First(c => (string?)c["type"] == "HingeJoint");
+        joint["breakForce"] = 12;
+        scene.Save();
         ImportedAsset asset = ImportedAsset.Of(scene.Scene, new KinefabSettings { physics = KinefabPhysics.Articulation });
-        Assert.That(asset.Context.Warnings.Single(w => w.Contains("UNITY_PHYSICS_AS_EXPORTED", StringComparison.Ordinal)), Does.Match(@"the file has \d+ Rigidbodies and \d+ joints; they stay").And.Contain("--physics articulation"));
+        Assert.That(asset.Context.Warnings, Has.Some.Match("ARTICULATION_IMPOSSIBLE.*it can break.*As Exported").And.Some.Match(@"UNITY_PHYSICS_AS_EXPORTED.*its \d+ Rigidbodies and \d+ joints stay"));
+        Assert.That((asset.Context.Errors, All<Unity.ArticulationBody>(asset).Length), Is.EqualTo((Array.Empty<string>(), 0)));
         Assert.That(All<Unity.Joint>(asset), Is.Not.Empty);
-        Assert.That(ImportedAsset.Of(Arm, new KinefabSettings { physics = KinefabPhysics.Articulation }).Codes, Has.None.EqualTo("UNITY_PHYSICS_AS_EXPORTED"));
-        Assert.That(ImportedAsset.Of(Arm).Source.DescribePhysics(), Is.EqualTo("7 ArticulationBodies and 0 joints"));
+    }
+
+    // One mechanism, whatever holds it in physics: the same freedoms by the same names, and every part where it was.
+    [Test]
+    public void Articulation_OfEveryFixture_IsMovedAsItsJointsAre()
+    {
+        const int Steps = 12;
+        List<string> apart = [];
+        int moved = 0;
+        foreach (string file in PlayedMechanism.Scenes())
+        {
+            using var joints = new PlayedMechanism(PlayedMechanism.Full(file), KinefabPhysics.AsExported);
+            using var links = new PlayedMechanism(PlayedMechanism.Full(file), KinefabPhysics.Articulation);
+            KinefabMechanism one = joints.Component, other = links.Component;
+            if (one == null || All<Unity.ArticulationBody>(links.Root).Length == 0)
+                continue;
+            // A hinge's angle is a link's angularX; of a joint without a name both are told by their object, with a number where it has several.
+            string Said(KinefabFreedom f) => Regex.Replace(f.FullName, @"\.(angle|angularX)$|\[\d+\]", "");
+            string[] here = [.. one.Freedoms.Select(Said)], there = [.. other.Freedoms.Select(Said)];
+            if (here.Length == 0 || !here.Order().SequenceEqual(there.Order()) || one.Last.Branches > 1 || one.Freedoms[0].Low > -1e-4 || -one.Freedoms[0].Low < 0.01 * one.Freedoms[0].High)
+                continue; // another tree may choose others of the coordinates for the same freedoms; from a dead point there are two ways on
+            double[] values = new double[here.Length], theirs = new double[here.Length];
+            for (int step = 1; step <= Steps; step++)
+            {
+                double to = Math.Clamp(3.0 * step * (one.Freedoms[0].IsAngle ? 1 : 0.0005), 0.9 * one.Freedoms[0].Low, 0.9 * one.Freedoms[0].High); // at its ends two poses meet
+                values[0] = theirs[Array.IndexOf(there, here[0])] = to;
+                if (!one.Set(values).Reached || !other.Set(theirs).Reached)
+                    break;
+                double off = Apart(one, other);
+                moved++;
+                if (off > 1e-7)
+                {
+                    apart.Add($"{file}: {off} m at {to} of {one.Freedoms[0].FullName}");
+                    break;
+                }
+            }
+        }
+
+        TestContext.Out.WriteLine($"{moved} poses");
+        Assert.That(string.Join("\n", apart), Is.Empty);
+        Assert.That(moved, Is.GreaterThan(500));
+
+        static double Apart(KinefabMechanism one, KinefabMechanism other)
+        {
+            double worst = 0;
+            HashSet<int> idle = [.. one.Motion.Mechanism.CountMobility().Idle.SelectMany(free => free.GameObjects)];
+            foreach (int body in one.Motion.Mechanism.Bodies.Where(b => !idle.Contains(b)))
+            {
+                string id = one.Motion.Mechanism.Scene.Document.GameObjects[body].Id;
+                Pose a = one.Motion.State.Pose(id), b = other.Motion.State.Pose(id);
+                worst = Math.Max(worst, Math.Max((a.Position - b.Position).Length, (a.Point(new(0.1, 0.2, -0.1)) - b.Point(new(0.1, 0.2, -0.1))).Length));
+            }
+
+            return worst;
+        }
     }
 
     [Test]

@@ -5,6 +5,7 @@ using System.IO;
 using System.Linq;
 using Kinefab.Tests.Conformance;
 using Kinefab.Validation;
+using KinefabUnity;
 using NUnit.Framework;
 using Unity = UnityEngine;
 
@@ -40,6 +41,7 @@ public sealed class PrefabTests
     [TestCase("body", 80)]
     [TestCase("world", 80)]
     [TestCase("links", 50)]
+    [TestCase("asked", 90)]
     [TestCase("clips", 1)]
     [TestCase("builtin", 1)]
     [TestCase("urp", 1)]
@@ -56,7 +58,7 @@ public sealed class PrefabTests
         foreach (string prefab in prefabs)
         {
             var comparison = new PrefabComparison(prefab);
-            ImportedAsset asset = ImportedAsset.Of(Path.ChangeExtension(prefab, ".kinefab"));
+            ImportedAsset asset = ImportedAsset.Of(Path.ChangeExtension(prefab, ".kinefab"), kind == "asked" ? new KinefabSettings { physics = KinefabPhysics.Articulation } : null);
             Assert.That(asset.Context.Errors, Is.Empty, prefab);
             try
             {

@@ -96,7 +96,7 @@ public sealed class UnityImportTests
         KinefabSource.Of("""
             {"format": "kinefab.scene", "version": "1.0", "gameObjects": [], "physics": {"gravity": [0.5, -1.62, 0.25], "fixedTimestep": 0.01,
              "solverIterations": 12, "solverVelocityIterations": 3, "bounceThreshold": 3, "defaultMaxAngularSpeed": 9}}
-            """u8.ToArray(), "").ApplyProjectSettings();
+            """u8.ToArray(), new KinefabSettings()).ApplyProjectSettings();
         Unity.Vector3 gravity = Unity.Physics.gravity;
         Assert.That((gravity.x, gravity.y, gravity.z), Is.EqualTo((0.5f, -1.62f, 0.25f)));
         Assert.That((Unity.Physics.bounceThreshold, Unity.Physics.defaultMaxAngularSpeed, Unity.Time.fixedDeltaTime), Is.EqualTo((3f, 9f, 0.01f)));

@@ -1,3 +1,4 @@
+using System.Collections.Generic;
 using Kinefab.Json;
 
 namespace Kinefab.Document;
@@ -14,15 +15,40 @@ internal static class JointExtras
     /// <summary>Whether the joint only keeps its bodies from colliding: it holds nothing and stands for no joint of the source.</summary>
     internal static bool KeepsApart(Joint joint) => joint is ConfigurableJoint && Text(joint, "apart") is not null;
 
+    /// <summary>Ends of a range that the component itself does not hold, degrees; null where none is told.</summary>
+    internal static (double Low, double High)? Range(Joint joint, string field)
+    {
+        IReadOnlyList<(string Name, JsonTree Value)>? ends = Tree(joint)?[field]?.Fields;
+        return ends is { Count: 2 } && Invariant.TryNumber(ends[0].Value.ToString(), out double low) && Invariant.TryNumber(ends[1].Value.ToString(), out double high)
+            ? (low, high)
+            : null;
+    }
+
+    /// <summary>The extras of what stands in a joint's place and has no field for the name; null for none.</summary>
+    internal static string? WithName(Joint joint)
+    {
+        if (joint.Name is not { Length: > 0 } name || Tree(joint) is not JsonTree extras)
+            return joint.ExtrasJson;
+        JsonTree named = JsonTree.Parse("{}");
+        named["name"] = JsonTree.String(name);
+        foreach ((string field, JsonTree value) in extras.Fields)
+            named[field] = value;
+        return named.ToString();
+    }
+
     private static string? Text(Joint joint, string field)
     {
-        if (joint.ExtrasJson is not string json)
-            return null;
+        JsonTree? value = Tree(joint)?[field];
+        bool isText = value is not null && value.ToString()[0] == '"';
+        return isText && value!.AsString() is { Length: > 0 } text ? text : null;
+    }
+
+    // Without any: an object without fields.
+    private static JsonTree? Tree(Joint joint)
+    {
         try
         {
-            JsonTree? value = JsonTree.Parse(json)[field];
-            bool isText = value is not null && value.ToString()[0] == '"';
-            return isText && value!.AsString() is { Length: > 0 } text ? text : null;
+            return JsonTree.Parse(joint.ExtrasJson ?? "{}");
         }
         catch (JsonSyntaxException)
         {

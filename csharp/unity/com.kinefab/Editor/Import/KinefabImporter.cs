@@ -73,9 +73,9 @@ namespace KinefabUnity.Editing
             ValidScene scene = ImportedFile.Validated(reading);
             KinefabFinding.Add(reading.Report, findings);
             KinefabFinding.Add(scene.Report, findings);
+            scene = Articulation.Apply(Ground.Apply(scene, settings.ground, findings), settings.physics, findings);
             KinefabFinding.AddLosses(scene.Document, findings);
 
-            scene = Ground.Apply(scene, settings.ground, findings);
             var external = GetExternalObjectMap();
             SceneBuilder builder = null;
             builder = new SceneBuilder(scene, settings, findings, i => Replaced(external, builder.Looks.Identities.Materials[i]));
@@ -108,7 +108,7 @@ namespace KinefabUnity.Editing
         private void Add(AssetImportContext ctx, SceneBuilder builder, GameObject root, List<KinefabFinding> findings)
         {
             ProjectFindings.Add(builder, settings, findings);
-            KinefabSource source = KinefabSource.Of(File.ReadAllBytes(FileUtil.GetPhysicalPath(ctx.assetPath)), settings.ground);
+            KinefabSource source = KinefabSource.Of(File.ReadAllBytes(FileUtil.GetPhysicalPath(ctx.assetPath)), settings);
             builder.Move(source);
             source.Tell(findings);
             var made = new List<(string Identifier, Object Object)>();

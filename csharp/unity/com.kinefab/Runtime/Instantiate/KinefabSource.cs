@@ -15,6 +15,9 @@ namespace KinefabUnity
         [SerializeField, HideInInspector]
         private string ground = "";
 
+        [SerializeField, HideInInspector]
+        private KinefabPhysics physics = KinefabPhysics.AsExported;
+
         [SerializeField]
         private KinefabFinding[] findings = new KinefabFinding[0];
 
@@ -34,13 +37,14 @@ namespace KinefabUnity
         }
 
         /// <param name="text">The file.</param>
-        /// <param name="ground">What the settings name as ground.</param>
-        internal static KinefabSource Of(byte[] text, string ground)
+        /// <param name="settings">What was made of it.</param>
+        internal static KinefabSource Of(byte[] text, KinefabSettings settings)
         {
             KinefabSource source = CreateInstance<KinefabSource>();
             source.name = "Source";
             source.text = WithoutBuffers(text);
-            source.ground = ground;
+            source.ground = settings.ground;
+            source.physics = settings.physics;
             return source;
         }
 
@@ -60,7 +64,7 @@ namespace KinefabUnity
 
         internal void Tell(List<KinefabFinding> found) => findings = found.ToArray();
 
-        /// <summary>The scene without looks; objects and components stand where the file has them.</summary>
+        /// <summary>The scene without looks; objects and components stand where the scene has them that was made.</summary>
         /// <exception cref="SceneFormatException">The text is none of a scene.</exception>
         internal ValidScene Load()
         {
@@ -71,7 +75,8 @@ namespace KinefabUnity
             }
 
             SceneValidation validation = SceneValidator.Validate(Bare(reading.Document));
-            return Ground.Apply(validation.Scene ?? throw new SceneFormatException(validation.Report), ground, null);
+            ValidScene scene = validation.Scene ?? throw new SceneFormatException(validation.Report);
+            return Articulation.Apply(Ground.Apply(scene, ground, null), physics, null);
         }
 
         /// <summary>What the file was exported with: 12 Rigidbodies and 14 joints.</summary>

@@ -5,29 +5,10 @@ namespace KinefabUnity
     /// <summary>What a file was exported with, for people.</summary>
     internal static class PhysicsOfFile
     {
-        /// <summary>Whether it has Rigidbodies, which no importer makes links of.</summary>
-        internal static bool HasJoints(Doc.SceneDocument document)
-        {
-            Count(document, out int bodies, out _, out _);
-            return bodies > 0;
-        }
-
         /// <summary>12 Rigidbodies and 14 joints.</summary>
         internal static string Describe(Doc.SceneDocument document)
         {
-            Count(document, out int bodies, out int links, out int joints);
-            if (bodies + links == 0)
-            {
-                return "no bodies";
-            }
-
-            string told = bodies == 0 ? $"{links} ArticulationBodies" : links == 0 ? $"{bodies} Rigidbodies" : $"{links} ArticulationBodies, {bodies} Rigidbodies";
-            return $"{told} and {joints} joint{(joints == 1 ? "" : "s")}";
-        }
-
-        private static void Count(Doc.SceneDocument document, out int bodies, out int links, out int joints)
-        {
-            bodies = links = joints = 0;
+            int bodies = 0, links = 0, joints = 0;
             foreach (Doc.GameObject from in document.GameObjects)
             {
                 foreach (Doc.Component component in from.Components)
@@ -37,6 +18,14 @@ namespace KinefabUnity
                     joints += component is Doc.Joint ? 1 : 0;
                 }
             }
+
+            if (bodies + links == 0)
+            {
+                return "no bodies";
+            }
+
+            string told = bodies == 0 ? $"{links} ArticulationBodies" : links == 0 ? $"{bodies} Rigidbodies" : $"{links} ArticulationBodies, {bodies} Rigidbodies";
+            return $"{told} and {joints} joint{(joints == 1 ? "" : "s")}";
         }
     }
 }

@@ -140,11 +140,6 @@ namespace KinefabUnity
 
             root.transform.SetParent(parent, worldPositionStays: false);
             placement = new Placement(parent, findings);
-            if (settings.physics == KinefabPhysics.Articulation && PhysicsOfFile.HasJoints(document))
-            {
-                findings.Add(KinefabFinding.Of("UNITY_PHYSICS_AS_EXPORTED", "", ("has", PhysicsOfFile.Describe(document))));
-            }
-
             if (settings.physics != KinefabPhysics.None)
             {
                 Bodies();

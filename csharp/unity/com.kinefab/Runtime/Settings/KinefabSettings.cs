@@ -15,7 +15,7 @@ namespace KinefabUnity
         /// <summary>Rigidbodies with joints; of links of an articulation a ConfigurableJoint each.</summary>
         Joints = 2,
 
-        /// <summary>ArticulationBodies, where the file has them. Of joints the export makes them, as links need another hierarchy.</summary>
+        /// <summary>ArticulationBodies: the tree of the joints becomes the hierarchy, what closes a loop stays a joint. As kinefab export --physics articulation makes them.</summary>
         Articulation = 3,
     }
 
@@ -24,7 +24,7 @@ namespace KinefabUnity
     public sealed class KinefabSettings
     {
         /// <summary>What becomes of bodies and joints.</summary>
-        [Tooltip("As the file has them; none: KinefabMechanism alone moves the parts; joints also in the place of an articulation; articulation where the file has one (kinefab export --physics articulation), else its joints stay.")]
+        [Tooltip("As the file has them; none: KinefabMechanism alone moves the parts; joints also in the place of an articulation; articulation also in the place of joints, parts then stand below each other.")]
         public KinefabPhysics physics = KinefabPhysics.AsExported;
 
         /// <summary>Name or id of a part that stands still; empty: those that the file says.</summary>

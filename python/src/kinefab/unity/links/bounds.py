@@ -41,6 +41,8 @@ def bounded(moving: Mapping[str, Any], stated: Joint, report: Report) -> dict[st
         if "effort" in lost and (bound := _force_limit(stated, index, drive, passive, report)) is not None:
             found[name] = replace(drive, forceLimit=bound)
             del lost["effort"]
+        elif freedom.drive is not None:  # the component's drive may be that of another freedom, which is stronger
+            found[name] = replace(drive, forceLimit=min(drive.forceLimit, passive.effort))
         if lost != told:
             withdraw_bounds(stated, index, told, report)
             if lost:

@@ -24,6 +24,8 @@ MOTOR_DAMPING = 1e7
 """N m s/rad of the drive that stands for a motor: its force is then the motor's largest."""
 MOST_TURN = 360.0
 """Degrees to either side within which PhysX holds the range of a link's hinge."""
+NOISE = 1e-12
+"""Of a target: what is left of an axis that is square to it, and is not written to a file."""
 RUNTIME = ("maxAngularVelocity", "solverIterations", "solverVelocityIterations")
 """Of a body, which Unity takes from a script only."""
 
@@ -124,8 +126,8 @@ def _turning(joint: ConfigurableJoint, angular: tuple[str, str, str]) -> dict[st
     low, high = sorted((sense * joint.lowAngularXLimit.limit, sense * joint.highAngularXLimit.limit))
     slerp = joint.rotationDriveMode == "Slerp"
     x, y, z, w = joint.targetRotation
-    about_x = not (slerp or y or z or joint.targetAngularVelocity[1] or joint.targetAngularVelocity[2])
-    if not about_x and (joint.targetRotation != (0.0, 0.0, 0.0, 1.0) or any(joint.targetAngularVelocity)):
+    aside = (y, z, *joint.targetAngularVelocity[1:])
+    if any(abs(v) > NOISE for v in (*aside, *((x, joint.targetAngularVelocity[0]) if slerp else ()))):
         raise NotArticulated("its drive turns about several axes to a target")
     target = sense * math.degrees(2.0 * math.atan2(x, w))
     velocity = -sense * math.degrees(joint.targetAngularVelocity[0])

@@ -33,7 +33,7 @@ from ..scene import (
     Vector3,
 )
 from ..scene.joints.joint import AnchoredJoint
-from ..scene.vectors import quaternion4, vector3
+from ..scene.vectors import Quaternion, quaternion4, vector3
 from .bounds import bounded
 from .motions import (
     ARTICULATION,
@@ -48,6 +48,8 @@ from .order import with_parents_first
 
 ARTICULATION_GROUND_ID = "kinefab:articulation ground"
 """Of the root that stands for the world where no object does."""
+ALIKE = 1e-6
+"""Below it a component of a direction or a rotation may be one of rounding, which decides nothing."""
 HELPER_MASS = 0.05
 """Of the link that a helper body is fixed to."""
 
@@ -276,9 +278,9 @@ class _Articulation:
         inner, outer = self.poses[child].inverse() @ world, self.poses[parent].inverse() @ world
         return {
             "anchorPosition": vector3(inner.translation),
-            "anchorRotation": quaternion4(quaternion_from_matrix(inner.rotation)),
+            "anchorRotation": _upright(inner),
             "parentAnchorPosition": vector3(outer.translation),
-            "parentAnchorRotation": quaternion4(quaternion_from_matrix(outer.rotation)),
+            "parentAnchorRotation": _upright(outer),
         }
 
     def _tell_range(self, joint: Joint, code: str) -> None:
@@ -346,11 +348,23 @@ class _Articulation:
 
 
 def _transform(pose: Pose) -> Transform:
-    return Transform(vector3(pose.translation), quaternion4(quaternion_from_matrix(pose.rotation)))
+    return Transform(vector3(pose.translation), _upright(pose))
+
+
+def _upright(pose: Pose) -> Quaternion:
+    """Its rotation with w not negative; about half a turn, where that hangs on rounding, with the first of x, y, z that is not 0 positive."""
+    q = quaternion4(quaternion_from_matrix(pose.rotation))
+    first = next((v for v in q if abs(v) > ALIKE), 1.0)
+    if q[3] > ALIKE or first > 0.0:
+        return q
+    x, y, z, w = (-v for v in q)
+    return (x, y, z, w)
 
 
 def _across(axis: Vector3) -> Vector3:
-    """Some direction at right angles to an axis."""
-    smallest = min(range(3), key=lambda i: abs(axis[i]))
+    """Some direction at right angles to an axis, of equally good ones the first, whatever the axis was rounded to."""
+    smallest = 0
+    for i in (1, 2):
+        smallest = i if abs(axis[i]) < abs(axis[smallest]) - ALIKE else smallest
     x, y, z = (float(v) for v in np.cross(axis, np.eye(3)[smallest]))
     return (x, y, z)

@@ -68,7 +68,7 @@ internal sealed class IdleFreedoms
 
         foreach (List<int> edges in idle._cuts.Classes)
         {
-            foreach ((int first, int last) in idle.Sharing(edges))
+            foreach ((int first, int last) in idle.Left(edges[0]) > 0 ? idle.Sharing(edges) : new List<(int, int)>())
             {
                 idle.AddBetween(first, last, cancellation);
             }
@@ -87,9 +87,9 @@ internal sealed class IdleFreedoms
         }
 
         int up = _cuts.ParentEdges[node] >= 0 ? _cuts.ParentEdges[node] : edges[0];
-        if (_cuts.BlockOf[up] >= 0)
+        if (_cuts.BlockOf[up] >= 0 && Left(up) > 0)
         {
-            Add(new List<int> { node }, up, WhatAllLeave(_graph.Twists[up], edges, Tolerance(up)), cancellation);
+            Add(new List<int> { node }, up, WhatAllLeave(_graph.Twists(up), edges, Tolerance(up)), cancellation);
         }
     }
 
@@ -104,7 +104,7 @@ internal sealed class IdleFreedoms
             return; // one node, or all that hangs on one
         }
 
-        List<double[]> twists = TwistSpan.Common(_graph.Twists[first], _graph.Twists[last], shared);
+        List<double[]> twists = TwistSpan.Common(_graph.Twists(first), _graph.Twists(last), shared);
         var members = new List<int> { begin };
         var seen = new HashSet<int> { begin };
         for (int i = 0; i < members.Count && twists.Count > 0; i++)
@@ -113,7 +113,7 @@ internal sealed class IdleFreedoms
             {
                 if (_cuts.BlockOf[edge] < 0 || _cuts.BlockOf[edge] != _cuts.BlockOf[first])
                 {
-                    twists = TwistSpan.Common(twists, _graph.Twists[edge], shared);
+                    twists = TwistSpan.Common(twists, _graph.Twists(edge), shared);
                 }
                 else if (edge != first && edge != last && seen.Add(_cuts.Other(edge, members[i])))
                 {
@@ -156,7 +156,7 @@ internal sealed class IdleFreedoms
     {
         for (int i = 0; i < edges.Count && twists.Count > 0; i++)
         {
-            twists = TwistSpan.Common(twists, _graph.Twists[edges[i]], shared);
+            twists = TwistSpan.Common(twists, _graph.Twists(edges[i]), shared);
         }
 
         return twists;
@@ -179,15 +179,15 @@ internal sealed class IdleFreedoms
         var plain = new List<(double Key, int Place)>();
         for (int i = 0; i < edges.Count; i++)
         {
-            if (_graph.Twists[edges[i]].Count == 1)
+            if (_graph.Twists(edges[i]).Count == 1)
             {
-                plain.Add((Math.Abs(DenseVector.Dot(_graph.Twists[edges[i]][0], Aslant)), i));
+                plain.Add((Math.Abs(DenseVector.Dot(_graph.Twists(edges[i])[0], Aslant)), i));
                 continue;
             }
 
             for (int j = 0; j < edges.Count; j++)
             {
-                if (_graph.Twists[edges[j]].Count == 1 || j > i)
+                if (_graph.Twists(edges[j]).Count == 1 || j > i)
                 {
                     pairs.Add((Math.Abs(i - j), Math.Min(i, j)));
                 }

@@ -21,6 +21,8 @@ internal sealed class JointGraph
     private readonly Dictionary<int, int> _nodes = new();
     private readonly List<(int A, int B, double[] Wrench)>[] _couplings;
     private readonly List<int>[] _couplingsOf;
+    private readonly List<double[]>[] _rowsOf;
+    private readonly List<double[]>?[] _twists;
 
     /// <summary>Of a mechanism.</summary>
     /// <param name="mechanism">Which.</param>
@@ -39,15 +41,15 @@ internal sealed class JointGraph
             }
         }
 
-        List<((int A, int B) Ends, List<double[]> Twists)> pairs;
+        List<((int A, int B) Ends, List<double[]> Rows)> pairs;
         bool isJoined;
         do
         {
             isJoined = false;
-            pairs = TwistsOfPairs();
-            foreach (((int a, int b), List<double[]> twists) in pairs)
+            pairs = RowsOfPairs();
+            foreach (((int a, int b), List<double[]> rows) in pairs)
             {
-                if (twists.Count == 0)
+                if (rows.Count >= 6 && TwistSpan.LeftBy(rows).Count == 0)
                 {
                     _sets.Join(a, b);
                     isJoined = true;
@@ -87,14 +89,15 @@ internal sealed class JointGraph
         }
 
         Pairs = new (int, int)[pairs.Count];
-        Twists = new List<double[]>[pairs.Count];
+        _twists = new List<double[]>?[pairs.Count];
+        _rowsOf = new List<double[]>[pairs.Count];
         Blocks = new int[pairs.Count];
         var place = new Dictionary<(int, int), int>();
         for (int i = 0; i < pairs.Count; i++)
         {
             place.Add(pairs[i].Ends, i);
             Pairs[i] = (_nodes[pairs[i].Ends.A], _nodes[pairs[i].Ends.B]);
-            Twists[i] = pairs[i].Twists;
+            _rowsOf[i] = pairs[i].Rows;
             Blocks[i] = -1;
         }
 
@@ -113,10 +116,9 @@ internal sealed class JointGraph
     /// <summary>The nodes that joints connect, each two once.</summary>
     public (int A, int B)[] Pairs { get; }
 
-    /// <summary>
-    /// For each pair orthonormal twists, linear in the mechanism's lengths and at its origin, then angular, of one node against the other.
-    /// </summary>
-    public List<double[]>[] Twists { get; }
+    /// <summary>Orthonormal twists, linear in the mechanism's lengths and at its origin, then angular, of one node of a pair against the other.</summary>
+    /// <param name="pair">Its index; found when first asked for, as most blocks have no freedom to ask about.</param>
+    public List<double[]> Twists(int pair) => _twists[pair] ??= TwistSpan.LeftBy(_rowsOf[pair]);
 
     /// <summary>For each pair the block of its freedoms, or -1.</summary>
     public int[] Blocks { get; }
@@ -177,7 +179,7 @@ internal sealed class JointGraph
     }
 
     // Of all pairs whose joints hold something.
-    private List<((int A, int B) Ends, List<double[]> Twists)> TwistsOfPairs()
+    private List<((int A, int B) Ends, List<double[]> Rows)> RowsOfPairs()
     {
         _rows.Clear();
         Span<ConstraintRow> rows = new ConstraintRow[JointModel.MaxRows];
@@ -202,10 +204,10 @@ internal sealed class JointGraph
             AddWithinPair(Terms(coupling));
         }
 
-        var pairs = new List<((int A, int B) Ends, List<double[]> Twists)>();
+        var pairs = new List<((int A, int B) Ends, List<double[]> Rows)>();
         foreach (KeyValuePair<(int A, int B), List<double[]>> pair in _rows)
         {
-            pairs.Add((pair.Key, TwistSpan.LeftBy(pair.Value)));
+            pairs.Add((pair.Key, pair.Value));
         }
 
         return pairs;

@@ -1,6 +1,8 @@
 using System.IO;
 using System.Linq;
+using System.Text.Json.Nodes;
 using Kinefab.Tests.Conformance;
+using KinefabUnity;
 using KinefabUnity.Editing;
 using NUnit.Framework;
 using UnityEditor;
@@ -35,6 +37,45 @@ public sealed class KinefabImporterEditorTests
         ImportedAsset asset = ImportedAsset.Of(Path.Combine(ConformanceCases.Folder, "invalid", "gameobject", "parent_later.kinefab"));
         Show(asset.Importer);
         Assert.That(EditorGUILayout.Shown.Single(s => s.StartsWith("Error: ", System.StringComparison.Ordinal)), Does.Contain("line").And.Contain("/gameObjects/"));
+    }
+
+    // Whatever is wrong with a file or a project: one sentence with what to do, in the inspector and in the import log.
+    [TestCase("newer", "Error: VERSION_UNSUPPORTED", "2.0")]
+    [TestCase("other", "Error: FORMAT_UNKNOWN", "kinefab.scene")]
+    [TestCase("zip", "Error: JSON_SYNTAX", "line 1")]
+    [TestCase("empty", "Error: SCENE_EMPTY", "")]
+    [TestCase("buffer", "Error: BUFFER_MISSING", "lever")]
+    [TestCase("shader", "Warning: UNITY_SHADER_MISSING", "Install the package")]
+    [TestCase("breaks", "Warning: UNITY_PHYSICS_AS_EXPORTED", "As Exported")]
+    [TestCase("locked", "Info: UNITY_NOTHING_MOVES", "kinefab analyse")]
+    public void Inspector_OfBadInput_SaysWhatToDo(string what, string begins, string says)
+    {
+        using var scene = new EditedScene(what == "locked" ? "mechanisms/M45.kinefab" : "lever/lever.kinefab");
+        Unity.Shader standard = Unity.Shader.Known["Standard"];
+        switch (what)
+        {
+            case "newer": scene.Save(json => json["version"] = "2.0"); break;
+            case "other": scene.Save(json => json["format"] = "of.another.program"); break;
+            case "zip": File.WriteAllText(scene.Scene, "PK\u0003\u0004 not a scene at all"); break;
+            case "empty": File.WriteAllText(scene.Scene, ""); break;
+            case "buffer": File.Delete(Path.Combine(scene.Folder, (string)scene.Json["buffers"]![0]!["uri"]!)); break;
+            case "shader": Unity.Shader.Known.Remove("Standard"); break;
+            case "breaks": scene.Save(_ => scene.Objects.SelectMany(o => o!["components"]?.AsArray() ?? []).First(c => (string)c!["type"]! == "HingeJoint")!["breakForce"] = 12); break;
+        }
+
+        try
+        {
+            ImportedAsset asset = ImportedAsset.Of(scene.Scene, new KinefabSettings { physics = what == "breaks" ? KinefabPhysics.Articulation : KinefabPhysics.AsExported });
+            AssetDatabase.Assets[scene.Scene] = [.. asset.Context.Objects.Values];
+            Show(asset.Importer);
+            Assert.That(EditorGUILayout.Shown.Single(s => s.StartsWith(begins, System.StringComparison.Ordinal)), Does.Contain(says));
+            if (what != "locked")
+                Assert.That(asset.Context.Errors.Concat(asset.Context.Warnings), Has.Some.Contains(begins.Split(' ')[1]), "the import log");
+        }
+        finally
+        {
+            Unity.Shader.Known["Standard"] = standard;
+        }
     }
 
     [Test]

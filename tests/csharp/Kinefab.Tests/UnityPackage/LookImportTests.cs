@@ -1,7 +1,9 @@
 using System;
 using System.Collections.Generic;
 using System.IO;
+using System.IO.Compression;
 using System.Linq;
+using System.Security.Cryptography;
 using System.Text.Json.Nodes;
 using KinefabUnity;
 using NUnit.Framework;
@@ -19,6 +21,8 @@ public sealed class LookImportTests
     [
         "textures/tiles.png|color|clamp", "textures/tiles.png|color|repeat", "textures/bumps.png|normal|mirror", "textures/Tiles|mask|bumps.png|repeat",
     ];
+
+    private static readonly int[] PillowsShade = [110, 106, 161, 114, 94, 202];
 
     private static readonly string[] OfTiles = ["color texture of material Tiles", "emission texture of material Tiles"];
 
@@ -48,6 +52,31 @@ public sealed class LookImportTests
         Unity.Color32[] from = Texture(asset, "tiles.png|color|repeat").GetPixels32(), to = Texture(asset, "Tiles|mask|bumps.png|repeat").GetPixels32();
         Assert.That(from.Distinct().Count(), Is.GreaterThan(1));
         Assert.That(to.Select(p => (p.r, p.g, p.b, p.a)), Is.EqualTo(from.Select(p => ((byte)Math.Round(0.125 * p.b), p.r, (byte)0, (byte)Math.Round(255 - 0.25 * p.g)))));
+    }
+
+    // The mask has the size of metallic and roughness; occlusion comes to it as Pillow resizes it (the numbers of ResamplingTests).
+    [Test]
+    public void Mask_OfOcclusionInAnotherSize_HasPillowsNumbers()
+    {
+        using var scene = new EditedScene(Textured);
+        byte[] rough = Grey(3, 2, i => 90), occlusion = Grey(7, 5, i => (byte)(7 * i * i + 13 * i + i % 5 * 41)), both = [.. rough, .. new byte[-rough.Length & 3], .. occlusion];
+        File.WriteAllBytes(Path.Combine(scene.Folder, "more.bin"), both);
+        scene.Save(json =>
+        {
+            json["buffers"]!.AsArray().Add(new JsonObject { ["uri"] = "more.bin", ["byteLength"] = both.Length, ["sha256"] = Convert.ToHexStringLower(SHA256.HashData(both)) });
+            foreach ((string name, int offset, int length) in new[] { ("rough.png", 0, rough.Length), ("shade.png", both.Length - occlusion.Length, occlusion.Length) })
+                json["images"]!.AsArray().Add(new JsonObject { ["name"] = name, ["mediaType"] = "image/png", ["colorSpace"] = "linear", ["data"] = new JsonObject { ["buffer"] = 1, ["offset"] = offset }, ["byteLength"] = length });
+            json["materials"]![0]!["metallicRoughnessTexture"]!["image"] = 2;
+            json["materials"]![0]!["occlusionTexture"]!["image"] = 3;
+        });
+        ImportedAsset asset = ImportedAsset.Of(scene.Scene);
+        Assert.That(asset.Context.Errors, Is.Empty);
+        Unity.Texture2D mask = asset.Context.Objects.Values.OfType<Unity.Texture2D>().Single(t => t.width == 3);
+
+        // Unity's rows go upwards, an image's downwards.
+        Unity.Color32[] pixels = mask.GetPixels32();
+        int[] shown = [.. pixels[3..].Concat(pixels[..3]).Select(p => (int)p.g)];
+        Assert.That(shown, Is.EqualTo(PillowsShade));
     }
 
     [Test]
@@ -152,4 +181,38 @@ public sealed class LookImportTests
         .. asset.Context.Objects.Where(o => o.Value is Unity.Material or Unity.Texture2D)
             .Select(o => $"{o.Key.Identifier}: {(o.Value is Unity.Material m ? m.GetFloat("_Metallic") : ((Unity.Texture2D)o.Value).width)}").Order(StringComparer.Ordinal),
     ];
+
+    // A PNG of 8 bits of grey.
+    private static byte[] Grey(int width, int height, Func<int, byte> at)
+    {
+        using var packed = new MemoryStream();
+        using (var zlib = new ZLibStream(packed, CompressionLevel.Fastest, leaveOpen: true))
+        {
+            for (int row = 0; row < height; row++)
+                zlib.Write([0, .. Enumerable.Range(row * width, width).Select(at)]);
+        }
+
+        byte[] Chunk(string kind, byte[] data)
+        {
+            byte[] body = [.. kind.Select(c => (byte)c), .. data];
+            return [.. Big(data.Length), .. body, .. Big((int)Crc(body))];
+        }
+
+        return [0x89, .. "PNG\r\n\u001a\n"u8, .. Chunk("IHDR", [.. Big(width), .. Big(height), 8, 0, 0, 0, 0]), .. Chunk("IDAT", packed.ToArray()), .. Chunk("IEND", [])];
+
+        static byte[] Big(int value) => [(byte)(value >> 24), (byte)(value >> 16), (byte)(value >> 8), (byte)value];
+
+        static uint Crc(byte[] data)
+        {
+            uint crc = uint.MaxValue;
+            foreach (byte each in data)
+            {
+                crc ^= each;
+                for (int bit = 0; bit < 8; bit++)
+                    crc = (crc & 1) != 0 ? 0xEDB88320 ^ (crc >> 1) : crc >> 1;
+            }
+
+            return ~crc;
+        }
+    }
 }

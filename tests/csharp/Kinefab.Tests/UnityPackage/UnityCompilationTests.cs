@@ -24,4 +24,20 @@ public sealed class UnityCompilationTests
     [TestCase("6000.7")]
     public void Tests_OfThePackage_Compile(string editor) =>
         Assert.That(UnityEditors.CompileTests(editor).GetDiagnostics().Where(d => d.Severity == DiagnosticSeverity.Error).Select(d => d.ToString()), Is.Empty);
+
+    // A prefab keeps the script that it came with; a project may have it, the package, or both.
+    [TestCase(true, false)]
+    [TestCase(false, true)]
+    [TestCase(true, true)]
+    public void Project_WithThePackageOrAPrefabsScript_Compiles(bool hasPackage, bool hasScript)
+    {
+        string own = $$"""
+            public sealed class Own : UnityEngine.MonoBehaviour
+            {
+            {{(hasPackage ? "    public KinefabUnity.KinefabCoupling ofTheImport; public KinefabUnity.KinefabMechanism mechanism;" : "")}}
+            {{(hasScript ? "    public Kinefab.KinefabCoupling ofThePrefab;" : "")}}
+            }
+            """;
+        Assert.That(UnityEditors.CompileProject("2022.3", hasPackage, hasScript, own).Select(d => d.ToString()), Is.Empty);
+    }
 }

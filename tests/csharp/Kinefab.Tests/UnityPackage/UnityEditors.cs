@@ -43,6 +43,24 @@ internal static class UnityEditors
             .AddReferences(MetadataReference.CreateFromFile(typeof(global::NUnit.Framework.TestAttribute).Assembly.Location));
     }
 
+    /// <summary>A project's assemblies, each as its asmdef has it: the package, the script that prefabs bring along, and what the user writes against them.</summary>
+    public static IEnumerable<Diagnostic> CompileProject(string editor, bool hasPackage, bool hasScript, string own)
+    {
+        var options = new CSharpParseOptions(LanguageVersion.CSharp9, preprocessorSymbols: [.. Defines(editor), "UNITY_EDITOR", "ENABLE_LEGACY_INPUT_MANAGER"]);
+        string script = Path.Combine(Repository, "python", "src", "kinefab", "targets", "prefab", "scripts", "KinefabCoupling.cs");
+        CSharpCompilation engine = Assembly("UnityEngine", Sources(StandIns).Select(File.ReadAllText));
+        List<CSharpCompilation> all = [engine];
+        if (hasPackage)
+            all.Add(Assembly("Kinefab.Unity", Sources(Package("Runtime")).Select(File.ReadAllText), engine));
+        if (hasScript)
+            all.Add(Assembly("Kinefab.Couplings", [File.ReadAllText(script)], engine));
+        all.Add(Assembly("Assembly-CSharp", [own], [.. all]));
+        return all.SelectMany(one => one.GetDiagnostics()).Where(d => d.Severity == DiagnosticSeverity.Error);
+
+        CSharpCompilation Assembly(string name, IEnumerable<string> sources, params CSharpCompilation[] references) =>
+            CSharpCompilation.Create(name, sources.Select(text => CSharpSyntaxTree.ParseText(text, options)), [.. References(), .. references.Select(one => one.ToMetadataReference())], new CSharpCompilationOptions(OutputKind.DynamicallyLinkedLibrary));
+    }
+
     /// <summary>Whether a file is the package's, not a stand-in.</summary>
     public static bool IsPackage(string path) => !path.StartsWith(StandIns, System.StringComparison.Ordinal);
 

@@ -1,7 +1,8 @@
 """The golden scenes of ``fixtures``: each mechanism's and pair's bundle beside the scene it is exported to.
 
 ``python tests/python/golden.py`` (``make golden``) writes them anew; a person reads the difference before it
-is committed.  C# counts and drives the same files.
+is committed.  They stand in ``fixtures/format_1_1``; those of format 1.0, whose closing joints have the fewest rows, stay beside
+the bundles.  C# counts and drives both.
 """
 
 from __future__ import annotations
@@ -10,13 +11,16 @@ import json
 import re
 import sys
 from collections.abc import Iterator
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
 import kinefab
 
-SETTINGS = kinefab.ExportOptions(colliders="hull", closures="minimal", ground="world", smooth=None)
-"""What the golden scenes are exported with, whatever the defaults become: C# counts their equations."""
+SETTINGS = kinefab.ExportOptions(colliders="hull", ground="world", smooth=None)
+"""What the golden scenes are exported with."""
+OLDER = replace(SETTINGS, closures=kinefab.Closures.MINIMAL)
+"""What those of format 1.0 were exported with."""
 FIXTURES = Path(__file__).resolve().parents[2] / "fixtures"
 
 
@@ -32,10 +36,15 @@ def unnamed(text: str) -> str:
 
 
 def golden_pairs() -> list[tuple[Path, Path]]:
-    """Every bundle that has a golden scene, and where the scene is."""
+    """Every bundle that has a golden scene, and where that of format 1.0 is, beside it."""
     folders = ("mechanisms", "pairs", "lever", "hinge_slider_zup", "hinge_slider_yup")
     bundles = [bundle for folder in folders for bundle in sorted((FIXTURES / folder).glob("*.bundle.json"))]
     return [(bundle, bundle.with_name(bundle.name.replace(".bundle.json", ".kinefab"))) for bundle in bundles]
+
+
+def today_of(scene: Path) -> Path:
+    """The golden scene of today, by that of format 1.0."""
+    return FIXTURES / "format_1_1" / scene.relative_to(FIXTURES)
 
 
 def numbers_and_words(value: Any, path: str = "") -> Iterator[tuple[str, Any]]:
@@ -65,10 +74,11 @@ def differences(expected: Any, actual: Any, tolerance: float) -> list[str]:
 
 if __name__ == "__main__":
     for source, scene in golden_pairs():
-        kinefab.export(source, scene, SETTINGS)
-        scene.write_text(unnamed(scene.read_text("utf-8")), "utf-8", newline="\n")
+        today = today_of(scene)
+        today.parent.mkdir(parents=True, exist_ok=True)
+        kinefab.export(source, today, SETTINGS)
         print(
-            scene.relative_to(FIXTURES.parent),
-            len(json.loads(scene.read_text("utf-8"))["gameObjects"]),
+            today.relative_to(FIXTURES.parent),
+            len(json.loads(today.read_text("utf-8"))["gameObjects"]),
             file=sys.stderr,
         )

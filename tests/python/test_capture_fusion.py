@@ -16,6 +16,7 @@ from kinefab.capture.channel import question
 from kinefab.capture.fusion.inside import capture_to
 from kinefab.capture.fusion.install import install
 from kinefab.diagnostics import Report
+from kinefab.sources import read
 from test_capture_onshape import only_joints, rigid_crank
 
 
@@ -174,6 +175,21 @@ def test_unsaved(changes, code, tmp_path):
     report = Report()
     capture("fusion", Fusion(described(only_joints("gears"))).record(**changes), tmp_path, report=report)
     assert [entry.code for entry in report.diagnostics] == [code]
+
+
+@pytest.mark.parametrize(("configurations", "told"), [(0, None), (1, None), (3, "Reclined")])
+def test_one_of_several_configurations_is_named(tmp_path, configurations, told):
+    record = Fusion(described(only_joints("gears"))).record(configurations=configurations)
+    found = capture("fusion", record, tmp_path)
+    assert json.loads(found.path.read_text("utf-8"))["meta"].get("configuration") == told
+    assert read(found.path, Report()).source.configuration == (told or "")
+
+
+def test_a_release_without_configurations_is_read(tmp_path):
+    asked = Fusion(described(only_joints("gears"))).record(configurations=3)
+    record = [{k: v for k, v in own.items() if k != "configurationTopTable"} for own in asked]
+    found = capture("fusion", record, tmp_path)
+    assert "configuration" not in json.loads(found.path.read_text("utf-8"))["meta"]
 
 
 def test_the_add_in_runs_in_a_python_of_its_own(tmp_path):

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import json
+
 import numpy as np
 import pytest
 from cad.captures import capture, scene_differences
@@ -9,6 +11,8 @@ from cad.described import described, mechanism
 from cad.inventor import Inventor
 from kinefab.capture.draft import Draft
 from kinefab.capture.masses import mass_record
+from kinefab.diagnostics import Report
+from kinefab.sources import read
 
 
 @pytest.mark.parametrize("name", ["lever/lever.bundle.json", "mechanisms/M04.bundle.json"])
@@ -19,6 +23,22 @@ def test_a_mechanism_is_the_scene_of_its_bundle(name, points, order, tmp_path):
         "inventor", Inventor(described(values), points, order).record(), tmp_path, values["meta"]["up"]
     )
     assert scene_differences(values, found.path, tmp_path) == []
+
+
+@pytest.mark.parametrize(("states", "told"), [(1, None), (3, "Reclined")])
+def test_one_of_several_model_states_is_named(tmp_path, states, told):
+    values = mechanism("lever/lever.bundle.json")
+    found = capture("inventor", Inventor(described(values)).record(states), tmp_path, values["meta"]["up"])
+    assert json.loads(found.path.read_text("utf-8"))["meta"].get("configuration") == told
+    assert read(found.path, Report()).source.configuration == (told or "")
+
+
+def test_a_release_without_model_states_is_read(tmp_path):
+    values = mechanism("lever/lever.bundle.json")
+    asked = Inventor(described(values)).record(states=3)
+    record = [{k: v for k, v in own.items() if k != "ModelStates"} for own in asked]
+    found = capture("inventor", record, tmp_path, values["meta"]["up"])
+    assert "configuration" not in json.loads(found.path.read_text("utf-8"))["meta"]
 
 
 def test_inertia_is_read_whatever_its_sign_and_point(tmp_path):

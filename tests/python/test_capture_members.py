@@ -85,7 +85,7 @@ def cases(program: str) -> list:
         kinds = machine(*BOTH.values(), flush, reference, spheres)
         kinds["joints"] = [{**rigid("Base", "Sub/Arm"), "type": "ball"}]  # on a work point
         return [
-            Inventor(described(lever)).record(), Inventor(described(lever), order="columns").record(),
+            Inventor(described(lever)).record(states=2), Inventor(described(lever), order="columns").record(),
             Inventor(described(kinds)).record(), Inventor(described(rows)).record(),
             Inventor(described(block("mm", "Z")), facets=inventor_bodies).record(),
         ]  # fmt: skip
@@ -107,7 +107,7 @@ def cases(program: str) -> list:
     for entry in odd:
         if 'itemById("opaque_albedo")' in entry:
             entry['itemById("odd_color")'] = entry.pop('itemById("opaque_albedo")')
-    grouped = Fusion(described(rows)).record(groups=(("Group", ["M/Arm", "M/Bolt-1"]),))
+    grouped = Fusion(described(rows)).record(groups=(("Group", ["M/Arm", "M/Bolt-1"]),), configurations=2)
     nested = Fusion(described(inside("mm", "Z")), bodies=only_own).record()
     return [grouped, *every_motion(), bodies, odd, nested]
 

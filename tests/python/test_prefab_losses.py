@@ -54,11 +54,11 @@ def test_layers_tags_and_what_2021_has_no_place_for(tmp_path):
     assert ("layer Scenery of Top/Base", "TARGET_LAYER_OF_PROJECT") in found
     assert ("tag Ground of Top/Base", "TARGET_TAG_OF_PROJECT") in found
     assert ("centre of mass and inertia of Top/Arm:1", "TARGET_MASS_DROPPED") in found
-    assert ("doubleSided of material Glass", "TARGET_FIELD_DROPPED") in found  # Standard has no other side
+    assert ("other side of material Glass", "LOOK_NOT_SHOWN") in found  # Standard has no other side
     later = told(exported(rich_scene(tmp_path), tmp_path, pipeline="urp"))
     assert (
         not any(code == "TARGET_MASS_DROPPED" for _, code in later)
-        and ("doubleSided of material Glass", "TARGET_FIELD_DROPPED") not in later
+        and ("other side of material Glass", "LOOK_NOT_SHOWN") not in later
     )
     with pytest.raises(kinefab.KinefabError):
         kinefab.export(
@@ -431,8 +431,8 @@ def test_colours_of_vertices_are_kept_and_told(tmp_path, pipeline):
     scene = model.Scene([model.Node("A", "A", bodies=(model.Body("b", 0),))], meshes=[mesh])
     options = kinefab.ExportOptions(writing={"pipeline": pipeline})
     result = kinefab.export(scene, tmp_path / "A.prefab", options)
-    told = [o.feature for o in result.report.outcomes if o.code == "TARGET_FIELD_DROPPED"]
-    assert told == ["the colours of vertices of mesh Painted"]
+    told = [(o.feature, o.outcome.value) for o in result.report.outcomes if o.code == "LOOK_NOT_SHOWN"]
+    assert told == [("vertex colours of mesh Painted", "approximated")]
 
 
 def test_no_image_is_made_smaller(tmp_path):

@@ -45,8 +45,12 @@ class Fusion:
     def listed(self, entries: list[Any]) -> dict[str, int]:
         return self.answers.listed(entries, count="count", item="item", first=0)
 
-    def record(self, groups: tuple[Any, ...] = (), contacts: int = 0, **changes: Any) -> list[dict[str, Any]]:
+    def record(
+        self, groups: tuple[Any, ...] = (), contacts: int = 0, configurations: int = 0, **changes: Any
+    ) -> list[dict[str, Any]]:
         a = self.answers
+        row = a.made("ConfigurationRow", name="Reclined")
+        table = a.made("ConfigurationTable", rows=self.listed([row] * configurations), activeRow=row)
         made = [
             a.made(
                 "RigidGroup",
@@ -81,6 +85,7 @@ class Fusion:
             productType="DesignProductType",
             rootComponent=root,
             contactSets=self.listed([None] * contacts),
+            configurationTopTable=table if configurations else None,
         )
         document = a.made(
             "Document", **{"name": self.assembly.root, "isSaved": True, "isModified": False, **changes}

@@ -49,14 +49,17 @@ class Inventor:
         self.constraints = self._constraints(self.base)
         self.top, self.major = top, major
 
-    def record(self, **changes: Any) -> list[dict[str, Any]]:
+    def record(self, states: int = 1, **changes: Any) -> list[dict[str, Any]]:
+        """states: how many model states there are."""
         a = self.answers
+        state = a.made("ModelState", Name="Reclined")
         options = a.made("NameValueMap")
         transient = a.made("TransientObjects", CreateNameValueMap=options)
         definition = a.made(
             "Definition", Occurrences=a.listed(self.top), Constraints=a.listed(self.constraints),
             Joints=a.listed(self.joints), RigidBodyAnalysis={f"#{options['object']}": self._rigid_bodies()},
             OccurrencePatterns=self._patterns(self.assembly.root),
+            ModelStates=a.made("ModelStates", Count=states, ActiveModelState=state),
         )  # fmt: skip
         document = a.made("Document", **{
             "DocumentType": 12291, "FullFileName": f"C:\\Work\\{self.assembly.root}.iam",

@@ -27,8 +27,8 @@ def span_of(document: Mapping[str, Any]) -> float:
         points.append(position)
         turn = rotation * scale
         for component in entry.get("components", ()):
-            if "anchor" in component:
-                points.append(position + turn @ np.array(component["anchor"], dtype=float))
+            if (anchor := component.get("anchor", component.get("anchorPosition"))) is not None:
+                points.append(position + turn @ np.array(anchor, dtype=float))
             elif component["type"] == "MeshFilter" and component.get("mesh") is not None:
                 bounds = meshes[int(component["mesh"])].get("bounds", {})
                 middle = position + turn @ np.array(bounds.get("center", (0, 0, 0)), dtype=float)

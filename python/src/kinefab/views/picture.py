@@ -25,9 +25,11 @@ from .freedoms import (
     counted,
     freedoms_of_component,
     joint_name,
+    link_above,
     world_placements,
     world_points,
 )
+from .links import joint_of_link
 from .raster.fragments import nearest_last
 from .raster.image import Canvas
 from .raster.solid import solid
@@ -91,7 +93,11 @@ def drawn_joints(objects: Sequence[Mapping[str, Any]], placements: Sequence[Plac
     found: list[DrawnJoint] = []
     for index, item in enumerate(objects):
         rotation, _, _ = placements[index]
-        for component in item.get("components", []):
+        for written in item.get("components", []):
+            component, middle = written, 0.0
+            linked = link_above(objects, index) if written["type"] == "ArticulationBody" else None
+            if linked is not None:
+                component, middle = joint_of_link(written, linked)
             if component["type"] not in COLOURS or not component.get("enabled", True):
                 continue
             axis = np.array(component.get("axis", [1, 0, 0]), float)
@@ -103,11 +109,13 @@ def drawn_joints(objects: Sequence[Mapping[str, Any]], placements: Sequence[Plac
             connected_anchor = None
             if given is not None:
                 connected_anchor = world_points(given, WORLD if other is None else placements[other])
-            words = ", ".join(freedoms_of_component(component, index, placements)) or "fixed"
+            words = ", ".join(freedoms_of_component(written, index, placements)) or "fixed"
             pose = Pose(rotation @ frame_from_axes(axis, second), anchor)
+            if linked is not None:
+                connected_anchor = anchor + middle * pose.rotation[:, 0]
             found.append(
                 DrawnJoint(
-                    joint_name(component) or item["name"],
+                    joint_name(written) or item["name"],
                     component["type"],
                     pose,
                     component,
@@ -203,7 +211,8 @@ def tied(document: Mapping[str, Any], placements: Sequence[Placement]) -> list[A
     objects = document["gameObjects"]
 
     def place(end: Mapping[str, Any]) -> Array:
-        anchor = objects[end["gameObject"]]["components"][end["component"]].get("anchor", (0, 0, 0))
+        component = objects[end["gameObject"]]["components"][end["component"]]
+        anchor = component.get("anchor", component.get("anchorPosition", (0, 0, 0)))
         return world_points(anchor, placements[int(end["gameObject"])])
 
     return [

@@ -86,6 +86,7 @@ internal sealed class Substep
         for (int blows = 0; ; blows++)
         {
             scalars.LocatesEvents = blows < MaxBlows;
+            scalars.BeginPiece();
             _pieceStart.Save(_batch);
             Array.Copy(_batch.VelocityImpulses, _guess, _guess.Length);
             _guessLength = _length;
@@ -205,7 +206,7 @@ internal sealed class Substep
     {
         double early = 0;
         double late = longest;
-        double before = _batch.ActiveSet!.NearestApartAtStart();
+        double before = _batch.ActiveSet!.NearestApartAtStart(longest);
         before = double.IsInfinity(before) ? -passed : before;
         double after = passed;
         int side = 0;
@@ -231,7 +232,8 @@ internal sealed class Substep
             double nearest = _batch.ActiveSet.NearestApart();
             if (nearest >= -MostPassed * tolerance && nearest <= MostShort * tolerance)
             {
-                return true;
+                // A limit that nothing was seen to leave is one that turns with the body: the drift is too long for its J.
+                return early > 0 || !_batch.ActiveSet.HasLeft();
             }
 
             if (nearest < 0)

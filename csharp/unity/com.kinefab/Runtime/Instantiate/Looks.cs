@@ -189,7 +189,8 @@ namespace KinefabUnity
             if (!data.Colors.IsEmpty)
             {
                 mesh.colors = Fours(data.Colors, (r, g, b, a) => new Color(r, g, b, a));
-                findings.Add(KinefabFinding.Of("TARGET_FIELD_DROPPED", $"the colours of vertices of mesh {from.Name}", ("target", "The pipeline's standard shader"), ("field", "the colours of vertices"), ("feature", $"mesh {from.Name}")));
+                string feature = $"vertex colours of mesh {from.Name}";
+                findings.Add(KinefabFinding.Of("LOOK_NOT_SHOWN", feature, ("feature", feature), ("shader", "the pipeline's standard shader")));
             }
 
             mesh.RecalculateBounds();

@@ -59,7 +59,8 @@ namespace KinefabUnity
             string owner = "material " + from.Name, shader = $"the shader {material.shader.name}";
             if (from.DoubleSided && !SurfaceSheet.CanBeDoubleSided(material))
             {
-                Lost("doubleSided", owner, shader);
+                string feature = "other side of " + owner;
+                findings.Add(KinefabFinding.Of("LOOK_NOT_SHOWN", feature, ("feature", feature), ("shader", shader)));
             }
 
             Doc.Texture leading = SurfaceSheet.Leading(from, maps);

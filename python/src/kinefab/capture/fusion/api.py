@@ -28,12 +28,22 @@ class Design(Protocol):
     productType: str  # text, DesignProductType | - | Product.productType Property
     rootComponent: RootComponent  # - | - | Design.rootComponent Property
     contactSets: Collection  # - | - | Design.contactSets Property
+    configurationTopTable: ConfigurationTable | None  # - | - | Design.configurationTopTable Property
 
 
 class Collection(Protocol):
     count: int  # number | - | Occurrences.count Property
 
     def item(self, index: int) -> Any: ...  # from 0 | - | Occurrences.item Method
+
+
+class ConfigurationTable(Protocol):
+    rows: Collection  # - | - | ConfigurationTopTable.rows Property
+    activeRow: ConfigurationRow  # - | - | ConfigurationTopTable.activeRow Property
+
+
+class ConfigurationRow(Protocol):
+    name: str  # text | - | ConfigurationRow.name Property
 
 
 class RootComponent(Protocol):

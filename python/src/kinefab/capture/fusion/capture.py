@@ -6,9 +6,10 @@ Standard library only: it runs in Fusion's own Python.
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
+from contextlib import suppress
 from typing import Any, cast
 
-from ..channel import methods_of
+from ..channel import MemberFailed, methods_of
 from ..draft import Draft
 from . import api
 from .api import Application, AsBuiltJoint, Joint
@@ -31,6 +32,9 @@ def capture(application: Application, draft: Draft) -> None:
     draft.source = document.name
     if not document.isSaved or document.isModified:
         draft.report.add("CAPTURE_UNSAVED", program=NAME, name=document.name)
+    with suppress(MemberFailed):  # before 2024 no design has configurations
+        table = design.configurationTopTable
+        draft.configuration = table.activeRow.name if table is not None and table.rows.count > 1 else ""
     root = design.rootComponent
     name = root.name.replace("/", "_")
     tree = Occurrences(draft, name, Parts(draft))

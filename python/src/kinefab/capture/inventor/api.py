@@ -47,12 +47,22 @@ class Collection(Protocol):
     def Item(self, Index: int) -> Any: ...  # from 1 | - | ComponentOccurrences.Item Property
 
 
+class ModelStates(Protocol):
+    Count: int  # number | - | ModelStates.Count Property
+    ActiveModelState: ModelState  # - | - | ModelStates.ActiveModelState Property
+
+
+class ModelState(Protocol):
+    Name: str  # text | - | ModelState.Name Property
+
+
 class Definition(Protocol):
     Document: Document  # - | - | ComponentDefinition.Document Property
     Occurrences: Collection  # - | - | AssemblyComponentDefinition.Occurrences Property
     Constraints: Collection  # - | the definition's own | AssemblyComponentDefinition.Constraints Property
     Joints: Collection  # - | the definition's own | AssemblyComponentDefinition.Joints Property
     OccurrencePatterns: Collection  # - | - | AssemblyComponentDefinition.OccurrencePatterns Property
+    ModelStates: ModelStates  # - | - | AssemblyComponentDefinition.ModelStates Property
     SurfaceBodies: Collection  # - | part | PartComponentDefinition.SurfaceBodies Property
     AppearanceOverridesObjects: Collection  # faces, features, work surfaces, bodies | - | PartComponentDefinition.AppearanceOverridesObjects Property
     MassProperties: MassProperties | None  # - | part | PartComponentDefinition.MassProperties Property

@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
+from contextlib import suppress
 from typing import cast
 
-from ..channel import methods_of
+from ..channel import MemberFailed, methods_of
 from ..draft import Draft, Record, at_origin
 from ..held import standing
 from . import api
@@ -49,6 +50,9 @@ def capture(application: Application, draft: Draft) -> None:
     root = document.DisplayName.rpartition(".")[0] or document.DisplayName
     draft.component({"id": root, "name": root, "kind": "assembly", "flexible": True, "pose": at_origin()})
     definition = document.ComponentDefinition
+    with suppress(MemberFailed):  # Inventor 2021 and before have none
+        states = definition.ModelStates
+        draft.configuration = states.ActiveModelState.Name if states.Count > 1 else ""
     found = Occurrences(draft, root)
     found.read(definition.Occurrences, root)
     _statements(Owner(draft, root, "world"), definition)

@@ -45,20 +45,21 @@ def tell_losses(scene: UnityScene, options: PrefabOptions, report: Report) -> No
         if value != getattr(Physics(), name):
             words = ", ".join(f"{x:g}" for x in (value if isinstance(value, tuple) else (value,)))
             report.dropped(f"project setting {name}", "TARGET_PROJECT_SETTING", setting=name, value=words)
-    _tell_vertex_colors(scene, options, report)
+    _tell_unshown(scene, options, report)
+
+
+def _tell_unshown(scene: UnityScene, options: PrefabOptions, report: Report) -> None:
+    """What the assets have and the pipelines' standard shaders do not look at."""
     if options.pipeline is Pipeline.BUILTIN:
         for material in scene.materials:
             if material.doubleSided:
-                report.field_dropped(f"material {material.name}", "doubleSided", "Unity's Standard shader")
-
-
-def _tell_vertex_colors(scene: UnityScene, options: PrefabOptions, report: Report) -> None:
-    """The asset has them; the pipelines' standard shaders do not look at them."""
+                told = {"shader": "Unity's Standard shader"}
+                report.approximated(f"other side of material {material.name}", "LOOK_NOT_SHOWN", **told)
     shown = {c.mesh for entry in scene.gameObjects for c in entry.components if isinstance(c, MeshFilter)}
     for index in sorted(shown):
         if is_colored(scene.meshes, index):
-            shader = f"the {options.pipeline.value} shader"
-            report.field_dropped(f"mesh {mesh_name(scene.meshes, index)}", "the colours of vertices", shader)
+            feature = f"vertex colours of mesh {mesh_name(scene.meshes, index)}"
+            report.approximated(feature, "LOOK_NOT_SHOWN", shader=f"the {options.pipeline.value} shader")
 
 
 def _tell_rigidbody(body: Rigidbody, owner: str, options: PrefabOptions, report: Report) -> None:

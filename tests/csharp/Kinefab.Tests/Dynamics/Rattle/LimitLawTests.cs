@@ -180,6 +180,32 @@ internal sealed class LimitLawTests
         Assert.That(m.Stops, Is.Zero);
     }
 
+    /// <summary>
+    /// A ball thrown back in a round hole: between two blows its path is a chord, so that the limit is left and reached again within a step, and its
+    /// angular momentum about the hole's middle stays, as its energy does.
+    /// </summary>
+    [TestCase(0.01, 0.3)]
+    [TestCase(0.006, 0.7)]
+    [TestCase(0.004, 1.2)]
+    public void LinearLimit_LeftAndReachedAgainWithinAStep_StrikesEachTime(double radius, double angle)
+    {
+        var b = new MechanismBuilder { Gravity = Vector3d.Zero };
+        int ball = b.Body(Vector3d.Zero, Quaterniond.Identity, 0.7, new Vector3d(1, 1, 1));
+        var response = new LimitResponse { Restitution = 1, BounceThreshold = 1e-3 };
+        b.Add(new D6Joint { X = AxisMotion.Limited, Y = AxisMotion.Limited, LinearLimit = new LinearLimit { Value = radius, Response = response } }, JointModel.World, ball, Pose.Identity);
+        MultibodySystem m = b.Build();
+        m.Bodies.Poses[ball] = new Pose(new Vector3d(radius, 0, 0), Quaterniond.Identity);
+        m.Bodies.LinearVelocities[ball] = new Vector3d(-Math.Cos(angle), Math.Sin(angle), 0);
+        double momentum = radius * Math.Sin(angle);
+        Run(m, 1, Dt, () =>
+        {
+            Vector3d v = m.Bodies.LinearVelocities[ball];
+            Assert.That(v.Length, Is.EqualTo(1).Within(1e-6));
+            Assert.That(Vector3d.Cross(m.Bodies.Poses[ball].Position, v).Z, Is.EqualTo(momentum).Within(1e-6 * radius));
+        });
+        Assert.That(m.Stops, Is.Zero);
+    }
+
     [Test]
     public void LinearLimit_OfNothing_HoldsTheAnchorAndTheEnergy()
     {

@@ -89,6 +89,12 @@ internal struct ScalarRow
     /// </summary>
     public bool IsApart;
 
+    /// <summary>Whether a limit that is reached at the start of the drift is left in it and passed at its end: it is apart until this piece has ended.</summary>
+    public bool IsLeft;
+
+    /// <summary>Whether a limit was let go in this drift, as its impulse drew.</summary>
+    public bool HasDrawn;
+
     /// <summary>Speed of the row at the start of the step; in an impact, before it.</summary>
     public double StartSpeed;
 

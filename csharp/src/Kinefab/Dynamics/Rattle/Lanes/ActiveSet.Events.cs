@@ -25,17 +25,29 @@ internal sealed partial class ActiveSet<V>
         return least;
     }
 
-    /// <summary>The same at its start, of those that have a row there.</summary>
-    public double NearestApartAtStart()
+    /// <summary>The same at its start, of those that have a row there and are not about to leave it.</summary>
+    public double NearestApartAtStart(double h)
     {
         double least = double.PositiveInfinity;
         for (int i = 0; i < _rows.Length; i++)
         {
             ref ScalarRow scalar = ref _rows[i];
-            least = scalar.IsApart && scalar.IsActive ? Math.Min(least, scalar.StartError) : least;
+            least = scalar.IsApart && scalar.IsActive && !scalar.IsLeft ? Math.Min(least, Math.Max(scalar.StartError, scalar.StartSpeed * h)) : least;
         }
 
         return least;
+    }
+
+    /// <summary>Whether a limit is to be left in the drift, see <see cref="ScalarRow.IsLeft"/>.</summary>
+    public bool HasLeft() => Array.Exists(_rows, row => row.IsLeft);
+
+    /// <summary>A piece of a part begins: no limit is left yet.</summary>
+    public void BeginPiece()
+    {
+        for (int i = 0; i < _rows.Length; i++)
+        {
+            _rows[i].IsLeft = false;
+        }
     }
 
     /// <summary>

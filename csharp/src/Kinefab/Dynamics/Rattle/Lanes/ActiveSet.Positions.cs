@@ -84,11 +84,38 @@ internal sealed partial class ActiveSet<V>
         }
     }
 
-    /// <summary>Moves rows that have left their state; true when one had to.</summary>
+    /// <summary>
+    /// Moves rows that have left their state; true when one had to. Where the states come round again, one row at a time moves from then on; where
+    /// they do so once more, a limit that draws while it is held and is passed while it is not is left by its joint and come back to within
+    /// the drift: it is apart, see <see cref="ScalarRow.IsLeft"/>.
+    /// </summary>
     public bool UpdatePositions(int pass, double tolerance)
     {
+        if (pass == 0)
+        {
+            _seen.Clear();
+            _movesAll = true;
+        }
+
+        if (pass == MaxPasses)
+        {
+            return false;
+        }
+
+        _movesAll &= pass < FreePasses;
+        if (!_seen.Add(States()))
+        {
+            _seen.Clear();
+            if (!_movesAll)
+            {
+                return LeaveLimits(tolerance);
+            }
+
+            _movesAll = false;
+        }
+
         bool isChanged = false;
-        for (int i = 0; i < _rows.Length && pass < MaxPasses && !(isChanged && pass >= FreePasses); i++)
+        for (int i = 0; i < _rows.Length && (_movesAll || !isChanged); i++)
         {
             ref ScalarRow scalar = ref _rows[i];
             scalar.PendingImpulse = 0;
@@ -109,6 +136,36 @@ internal sealed partial class ActiveSet<V>
         }
 
         return isChanged;
+    }
+
+    // Which rows act; two sets with the same number are taken for the same.
+    private ulong States()
+    {
+        ulong number = 0;
+        for (int i = 0; i < _rows.Length; i++)
+        {
+            number = number * 0x9E3779B97F4A7C15 + (_rows[i].State == RowState.Free ? 1UL : 2UL);
+        }
+
+        return number;
+    }
+
+    private bool LeaveLimits(double tolerance)
+    {
+        bool isAny = false;
+        for (int i = 0; i < _rows.Length && LocatesEvents; i++)
+        {
+            ref ScalarRow scalar = ref _rows[i];
+            scalar.PendingImpulse = 0;
+            if (scalar.Kind == RowKind.Limit && scalar.HasDrawn && scalar.State == RowState.AtBound && LeavesBound(scalar, 0, 0, tolerance))
+            {
+                scalar.IsLeft = true;
+                scalar.IsApart = true;
+                isAny = true;
+            }
+        }
+
+        return isAny;
     }
 
     private bool LeavesBound(in ScalarRow scalar, double low, double high, double tolerance)
@@ -138,6 +195,7 @@ internal sealed partial class ActiveSet<V>
             return false;
         }
 
+        scalar.HasDrawn = scalar.Kind == RowKind.Limit;
         scalar.PendingImpulse = impulse - scalar.ImpulseFirstHalf;
         scalar.ImpulseFirstHalf = impulse;
         scalar.State = RowState.AtBound;

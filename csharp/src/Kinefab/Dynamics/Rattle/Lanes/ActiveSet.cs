@@ -1,4 +1,5 @@
 using System;
+using System.Collections.Generic;
 using Kinefab.Joints;
 using Kinefab.Numerics;
 
@@ -32,6 +33,10 @@ internal sealed partial class ActiveSet<V>
     private readonly LaneRecords<V> _batch;
     private readonly ScalarRows _scalars;
     private readonly ScalarRow[] _rows;
+
+    // In the drift's search for states: the sets that were seen, and whether all rows out of place move at once.
+    private readonly HashSet<ulong> _seen = new();
+    private bool _movesAll;
 
     public ActiveSet(LaneRecords<V> batch, ScalarRows scalars)
     {
@@ -72,7 +77,10 @@ internal sealed partial class ActiveSet<V>
             scalar.PendingImpulse = 0;
             scalar.Theta = isImplicit ? 1 : 0.5;
             scalar.Kind = scalar.FindKind(SoftReach(scalar, h, tolerance));
-            scalar.IsApart = LocatesEvents && (!scalar.IsActive || (scalar.Built.Has(RowFlags.Limit) && scalar.StartError > Reach * tolerance));
+            scalar.StartSpeed = scalar.IsActive ? StartSpeed(scalar) : 0;
+            bool isReached = scalar.StartError <= Reach * tolerance && !scalar.IsLeft && !IsThrownBack(scalar);
+            scalar.IsApart = LocatesEvents && (!scalar.IsActive || (scalar.Built.Has(RowFlags.Limit) && !isReached));
+            scalar.HasDrawn = false;
             scalar.Allowed = scalar.Kind == RowKind.Limit && scalar.StartError < -MostClosedByDrift ? scalar.StartError : 0;
             if (scalar.Kind == RowKind.None || scalar.IsApart)
             {
@@ -82,7 +90,6 @@ internal sealed partial class ActiveSet<V>
                 continue;
             }
 
-            scalar.StartSpeed = StartSpeed(scalar);
             double response = Response(scalar);
             scalar.SetBounds(h, _batch.Shape.Blocks[scalar.Block].Joint!.DriveLimitsAreForces);
             if (scalar.Kind == RowKind.Motion)
@@ -275,6 +282,9 @@ internal sealed partial class ActiveSet<V>
 
         _scalars.IsFactored = true;
     }
+
+    // So fast that a joint that comes back to its limit within the drift is thrown back once more; a slower one may as well rest there at its end.
+    private static bool IsThrownBack(in ScalarRow scalar) => scalar.Built.Has(RowFlags.Restitution) && scalar.StartSpeed > scalar.Built.BounceThreshold;
 
     // Where events are not located, a soft limit that the step will reach acts from its start on, by the pose at its end.
     private double SoftReach(in ScalarRow scalar, double h, double tolerance)

@@ -5,7 +5,7 @@ using Kinefab.Bench.Peers;
 
 namespace Kinefab.Bench;
 
-/// <summary>dotnet run -c Release --project csharp/bench -- drive|load|start|mobility|solver|articulation|hub|package|threads|peers|all [--write]</summary>
+/// <summary>dotnet run -c Release --project csharp/bench -- drive|load|start|mobility|solver|articulation|hub|package|threads|rows|peers|all [--write]</summary>
 internal static class Program
 {
     private static readonly Dictionary<string, Func<string>> Benchmarks = new()
@@ -19,6 +19,7 @@ internal static class Program
         ["hub"] = Tables.Hub,
         ["package"] = Tables.Package,
         ["threads"] = Tables.Threads,
+        ["rows"] = Tables.Rows,
         ["peers"] = Tables.Peers,
     };
 

@@ -71,6 +71,8 @@ internal static class Tables
 
     internal static string Threads() => Written(ThreadBenchmark.Run);
 
+    internal static string Rows() => Written(RowBenchmark.Run);
+
     internal static string Peers() => Written(PeerBenchmark.Run);
 
     private static string Written(Action run)

@@ -20,10 +20,10 @@ def map_mobility(found: Mapping[str, Any], object_of: Sequence[int]) -> Mobility
         found["mobility"],
         found["firstOrderMobility"],
         found["redundant"],
-        found["idle"],
         ClosureGap(gap["position"], gap["angle"]),
         tuple(_island(island, object_of) for island in found["islands"]),
         _bodies(found["bodies"], object_of),
+        idle=found["idle"],
     )
 
 

@@ -5,200 +5,234 @@ using Kinefab.Numerics;
 namespace Kinefab.Dynamics.Rattle;
 
 /// <summary>
-/// Islands of locked axes alone, in lanes. All lanes try a plain RATTLE step together; those that it does not suffice
-/// are taken out and go down the step controller by themselves, so that no lane's result depends on its neighbours'.
+/// Islands in lanes. All lanes try a plain RATTLE step together, those that rest on limits with rows for these; those that it does not suffice, or
+/// whose limits and drives come to act otherwise, are taken out and go down the step controller by themselves, so that no lane's result depends on
+/// its neighbours'.
 /// </summary>
 internal sealed class LaneIslandGroup<V> : IslandGroup
     where V : struct, ILane<V>
 {
     private readonly MultibodySystem _mechanism;
-    private readonly Island[] _islands;
-    private readonly LaneBatch<V>[] _batches;
-    private readonly bool[] _converged = new bool[Lane<V>.Width];
-    private readonly bool[] _isAlone = new bool[Lane<V>.Width];
+    private readonly LaneIsland[] _islands;
+    private readonly LaneStep<V>[] _free;
+
+    // Of the same lanes, with the rows of limits; empty without such.
+    private readonly LaneStep<V>[] _resting;
+    private readonly bool[] _rests = new bool[Lane<V>.Width];
     private readonly SubstepHistory[] _histories;
+
+    // Of islands with scalar rows, which they have only when they step alone; else empty.
+    private readonly AloneMemory[] _memories;
     private readonly LaneBatch<ScalarLane> _spare;
     private readonly StepController _controller;
 
-    public LaneIslandGroup(MultibodySystem mechanism, List<Island> islands)
+    public LaneIslandGroup(MultibodySystem mechanism, List<LaneIsland> islands)
     {
         _mechanism = mechanism;
         _islands = islands.ToArray();
-        int width = Lane<V>.Width;
-        _batches = new LaneBatch<V>[(_islands.Length + width - 1) / width];
-        var workspace = new Workspace<V>(_islands[0]);
-        for (int i = 0; i < _batches.Length; i++)
-        {
-            // All of one shape object, so that what it says is read from memory once.
-            var batch = new LaneBatch<V>(_islands[0], workspace);
-            for (int lane = 0; lane < width; lane++)
-            {
-                LaneTransfer<V>.GatherConstants(batch, lane, Occupant(i, lane), mechanism);
-            }
-
-            _batches[i] = batch;
-        }
-
+        LaneIsland shape = _islands[0];
+        _free = Steps(shape.InLanes, island => island.InLanes);
+        _resting = shape.Resting is null ? Array.Empty<LaneStep<V>>() : Steps(shape.Resting, island => island.Resting!);
         _histories = new SubstepHistory[_islands.Length];
-        _spare = new LaneBatch<ScalarLane>(_islands[0], new Workspace<ScalarLane>(_islands[0]));
+        _memories = shape.Alone.ScalarCount == 0 ? Array.Empty<AloneMemory>() : Array.ConvertAll(_islands, island => new AloneMemory(island.Alone, mechanism.Bodies));
+        _spare = new LaneBatch<ScalarLane>(shape.Alone, new Workspace<ScalarLane>(shape.Alone));
         _controller = new StepController(_spare);
     }
 
     /// <inheritdoc/>
     public override void Step(double dt, double tolerance)
     {
-        for (int i = 0; i < _batches.Length; i++)
+        foreach (AloneMemory memory in _memories)
         {
-            LaneBatch<V> batch = _batches[i];
-            Load(batch, i, dt);
-            RattleStep<V>.KickAndDrift(batch, dt, tolerance, _converged);
-            bool hasClimbed = false;
-            for (int lane = 0; lane < Lane<V>.Width; lane++)
+            memory.BeginStep();
+        }
+
+        for (int i = 0; i < _free.Length; i++)
+        {
+            LaneStep<V> free = _free[i];
+            free.Load(dt);
+            Sort(free, i, dt, tolerance);
+            LoadResting(free, i);
+            free.Begin(dt, tolerance);
+            free.Drift(dt, tolerance);
+            Rest(i, dt, tolerance);
+            for (int lane = 0; lane < free.Occupied; lane++)
             {
-                bool hasFailed = !_converged[lane];
-                if ((_isAlone[lane] || hasFailed) && IsOccupied(i, lane))
+                if (free.IsAlone(lane) && !free.IsTakenOver(lane))
                 {
-                    hasClimbed = true;
-                    AdvanceAlone(batch, i, lane, dt, tolerance, hasFailed);
+                    AdvanceAlone(free, i, lane, dt, tolerance);
                 }
-
-                _isAlone[lane] |= hasFailed;
-                batch.Work.Active[lane] = _isAlone[lane] ? 0 : 1;
             }
 
-            if (hasClimbed)
+            free.Project(dt, tolerance);
+            for (int lane = 0; lane < free.Occupied; lane++)
             {
-                BilateralRows<V>.Place(batch);
+                if (free.HasLeftLate(lane))
+                {
+                    AdvanceAlone(free, i, lane, dt, tolerance);
+                }
             }
 
-            RattleStep<V>.Build(batch);
-            VelocityProjection<V>.Run(batch, dt, tolerance);
-            RattleStep<V>.Accept(batch);
-            GeometricStiffness<V>.Estimate(batch, batch.VelocityImpulses, dt / 2);
-            RattleStep<V>.Accumulate(batch);
-            LaneTransfer<V>.EndStep(batch);
-            int occupied = Math.Min(Lane<V>.Width, _islands.Length - i * Lane<V>.Width);
-            LaneTransfer<V>.Scatter(batch, occupied, _mechanism);
-            Reactions<V>.Report(batch, occupied, _mechanism, dt);
+            free.End(dt);
+            for (int lane = 0; lane < free.Occupied; lane++)
+            {
+                if (free.IsActive(lane))
+                {
+                    Forget(i, lane, true);
+                }
+            }
         }
     }
 
     /// <inheritdoc/>
     public override void Exchange(StateTape tape)
     {
-        foreach (LaneBatch<V> batch in _batches)
+        foreach (LaneStep<V> step in _free)
         {
-            batch.Exchange(tape);
+            step.Exchange(tape);
+        }
+
+        foreach (LaneStep<V> step in _resting)
+        {
+            step.Exchange(tape);
         }
 
         tape.Array(_histories);
+        foreach (AloneMemory memory in _memories)
+        {
+            memory.Exchange(tape);
+        }
     }
 
-    private void Load(LaneBatch<V> batch, int index, double dt)
+    // Which lanes take part: not those that are cut or turn fast, and not those at limits.
+    private void Sort(LaneStep<V> free, int index, double dt, double tolerance)
     {
-        bool isMoved = LaneTransfer<V>.Gather(batch, _mechanism, dt);
-        for (int lane = 0; lane < Lane<V>.Width && isMoved; lane++)
+        Array.Clear(_rests, 0, _rests.Length);
+        for (int lane = 0; lane < free.Occupied; lane++)
         {
-            if (batch.Work.Moved[lane] != 0)
+            if (free.IsAlone(lane) || History(index, lane).Halvings > 0 || free.Demand(lane, dt) > 1)
             {
-                ClearHistory(batch, lane);
+                free.Leave(lane);
+            }
+            else if (free.IsAtLimit(lane, tolerance))
+            {
+                free.Leave(lane);
+                _rests[lane] = _resting.Length > 0 && !free.IsMoved(lane);
             }
         }
+    }
 
-        LaneTransfer<V>.BeginStep(batch);
-        for (int lane = 0; lane < Lane<V>.Width; lane++)
+    private void LoadResting(LaneStep<V> free, int index)
+    {
+        if (Array.IndexOf(_rests, true) >= 0)
         {
-            double stiffest = 0;
-            for (int body = 0; body < batch.Shape.MovingBodies; body++)
-            {
-                stiffest = Math.Max(stiffest, batch.Bodies[LaneBatch<V>.Body(body, BodyLanes.Stiffness) + lane]);
-            }
-
-            _isAlone[lane] = StepLimit.Of(stiffest, batch.Work.Fastest[lane], dt) > 1 || (IsOccupied(index, lane) && History(index, lane).Halvings > 0);
-            batch.Work.Active[lane] = _isAlone[lane] ? 0 : 1;
+            _resting[index].Load(free, _rests);
         }
-
-        if (isMoved)
+        else if (_resting.Length > 0)
         {
-            FreeMotion<V>.Stay(batch);
-            RattleStep<V>.Rebuild(batch);
-            LeaveOpenOnes(batch);
-            LeaveForbiddenSpeeds(batch);
+            _resting[index].LeaveAll();
         }
     }
 
-    // So are those with speeds that the joints forbid.
-    private void LeaveForbiddenSpeeds(LaneBatch<V> batch)
+    // The step of the lanes that rest on limits; those that cannot do it so are left alone.
+    private void Rest(int index, double dt, double tolerance)
     {
-        Impulses<V>.NegativeSpeeds(batch);
-        double[] speeds = batch.Work.Solution;
-        for (int i = 0; i < speeds.Length; i++)
-        {
-            int lane = i % Lane<V>.Width;
-            _isAlone[lane] |= batch.Work.Moved[lane] != 0 && Math.Abs(speeds[i]) > InitialVelocityProjection.MostForbidden;
-        }
-
-        for (int lane = 0; lane < Lane<V>.Width; lane++)
-        {
-            batch.Work.Active[lane] = _isAlone[lane] ? 0 : 1;
-        }
-    }
-
-    // Moved lanes that stand open are the step controller's to close.
-    private void LeaveOpenOnes(LaneBatch<V> batch)
-    {
-        if (batch.Shape.IsInconsistent)
+        if (Array.IndexOf(_rests, true) < 0)
         {
             return;
         }
 
-        BilateralRows<V>.Evaluate(batch);
-        BilateralRows<V>.MeasureErrors(batch);
-        for (int lane = 0; lane < Lane<V>.Width; lane++)
+        LaneStep<V> free = _free[index];
+        LaneStep<V> resting = _resting[index];
+        resting.Begin(dt, tolerance);
+        resting.Drift(dt, tolerance);
+        resting.Project(dt, tolerance);
+        resting.End(dt);
+        bool areAll = resting.AreAllActive;
+        if (areAll)
         {
-            _isAlone[lane] |= batch.Work.Moved[lane] != 0 && batch.Work.MaxError[lane] > PositionProjection.MostOpen;
-            batch.Work.Active[lane] = _isAlone[lane] ? 0 : 1;
+            free.TakeOver(resting.Batch);
+        }
+
+        for (int lane = 0; lane < free.Occupied; lane++)
+        {
+            if (resting.IsActive(lane))
+            {
+                if (!areAll)
+                {
+                    free.TakeOver(lane, resting.Batch, lane);
+                }
+
+                Forget(index, lane, false);
+            }
         }
     }
 
     // The world still holds the island's state before the step, the lane its impulses.
-    private void AdvanceAlone(LaneBatch<V> batch, int index, int lane, double dt, double tolerance, bool hasFailed)
+    private void AdvanceAlone(LaneStep<V> free, int index, int lane, double dt, double tolerance)
     {
-        Island island = Occupant(index, lane);
+        Island island = _islands[index * Lane<V>.Width + lane].Alone;
         LaneTransfer<ScalarLane>.GatherConstants(_spare, 0, island, _mechanism);
         LaneTransfer<ScalarLane>.Gather(_spare, _mechanism, dt);
         LaneTransfer<ScalarLane>.BeginStep(_spare);
-        for (int i = 0; i < _spare.VelocityImpulses.Length; i++)
+        _spare.ClearHistory();
+        LaneTransfer<V>.CopyGuess(free.Batch, lane, _spare, 0);
+        AxisRows<V>? axes = (_resting.Length > 0 ? _resting[index] : free).Batch.Axes;
+        AloneMemory? memory = _memories.Length > 0 ? _memories[index * Lane<V>.Width + lane] : null;
+        bool isMoved = free.IsMoved(lane);
+        if (isMoved)
         {
-            _spare.VelocityImpulses[i] = batch.VelocityImpulses[i * Lane<V>.Width + lane];
+            Forget(index, lane, true);
         }
 
-        for (int body = 0; body < _spare.Shape.MovingBodies; body++)
+        if (memory == null || !memory.TryRestore(_spare))
         {
-            _spare.Bodies[LaneBatch<ScalarLane>.Body(body, BodyLanes.Stiffness)] = batch.Bodies[LaneBatch<V>.Body(body, BodyLanes.Stiffness) + lane];
+            axes?.HandOver(lane, _spare);
         }
 
         FreeMotion<ScalarLane>.Stay(_spare);
         RattleStep<ScalarLane>.Rebuild(_spare);
+        RattleStep<ScalarLane>.ReloadState(_spare);
         int stops = _controller.DampedSteps;
-        _controller.Advance(dt, tolerance, ref History(index, lane), hasFailed, batch.Work.Moved[lane] != 0);
+        _controller.Advance(dt, tolerance, ref History(index, lane), free.HasFailed(lane), isMoved);
         Note(_controller, island, stops);
-        LaneTransfer<V>.CopyLane(batch, lane, _spare);
+        memory?.Save(_spare, _controller.DampedSteps == stops);
+        axes?.TakeOver(lane, _spare);
+        GeometricStiffness<ScalarLane>.Estimate(_spare, _spare.VelocityImpulses, dt / 2);
+        _spare.Work.Active[0] = 1;
+        LaneTransfer<ScalarLane>.EndStep(_spare);
+        LaneTransfer<ScalarLane>.Scatter(_spare, 1, _mechanism);
+        Reactions<ScalarLane>.Report(_spare, 1, _mechanism, dt);
+        free.TakeOver(lane, _spare, 0);
     }
 
-    private static void ClearHistory(LaneBatch<V> batch, int lane)
+    // A step in lanes leaves no scalar rows to remember, and one without limits none of theirs.
+    private void Forget(int index, int lane, bool isFree)
     {
-        for (int i = lane; i < batch.VelocityImpulses.Length; i += Lane<V>.Width)
+        if (_memories.Length > 0)
         {
-            batch.VelocityImpulses[i] = 0;
+            _memories[index * Lane<V>.Width + lane].Forget();
+        }
+
+        if (isFree && _resting.Length > 0)
+        {
+            _resting[index].Batch.Axes!.Forget(lane);
         }
     }
 
     private ref SubstepHistory History(int batch, int lane) => ref _histories[batch * Lane<V>.Width + lane];
 
-    private bool IsOccupied(int batch, int lane) => batch * Lane<V>.Width + lane < _islands.Length;
+    private LaneStep<V>[] Steps(Island shape, Func<LaneIsland, Island> form)
+    {
+        int w = Lane<V>.Width;
+        var steps = new LaneStep<V>[(_islands.Length + w - 1) / w];
+        var workspace = new Workspace<V>(shape);
+        for (int i = 0; i < steps.Length; i++)
+        {
+            int occupied = Math.Min(w, _islands.Length - i * w);
+            steps[i] = new LaneStep<V>(_mechanism, Array.ConvertAll(_islands.AsSpan(i * w, occupied).ToArray(), island => form(island)), shape, workspace);
+        }
 
-    // Lanes without an island of their own work on a copy of the batch's first.
-    private Island Occupant(int batch, int lane) =>
-        _islands[IsOccupied(batch, lane) ? batch * Lane<V>.Width + lane : batch * Lane<V>.Width];
+        return steps;
+    }
 }

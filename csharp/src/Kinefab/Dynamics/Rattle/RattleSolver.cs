@@ -141,23 +141,36 @@ internal sealed class RattleSolver : ISolver, IStepParts
             island.Loops = probed is null ? LoopConsistency.Exact : _fits[probed.Index];
         }
 
-        List<Island> prepared = rest.FindAll(island => island.HasAssembledRows);
-        rest.RemoveAll(island => island.HasAssembledRows);
-        foreach (List<Island> some in InGroups(prepared))
+        var alone = new List<Island>();
+        var inLanes = new List<LaneIsland>();
+        foreach (Island island in rest)
+        {
+            LaneIsland? lanes = LaneIsland.Of(island);
+            if (lanes is null)
+            {
+                alone.Add(island);
+            }
+            else
+            {
+                inLanes.Add(lanes);
+            }
+        }
+
+        foreach (List<Island> some in InGroups(alone))
         {
             _groups.Add(new ScalarIslandGroup(_mechanism, some));
         }
 
-        while (rest.Count > 0)
+        while (inLanes.Count > 0)
         {
-            Island shape = rest[0];
-            List<Island> alike = rest.FindAll(island => island.HasShapeOf(shape));
-            rest.RemoveAll(new HashSet<Island>(alike).Contains);
+            LaneIsland shape = inLanes[0];
+            List<LaneIsland> alike = inLanes.FindAll(island => island.HasShapeOf(shape));
+            inLanes.RemoveAll(new HashSet<LaneIsland>(alike).Contains);
             AddInLanes(alike);
         }
     }
 
-    private void AddInLanes(List<Island> islands)
+    private void AddInLanes(List<LaneIsland> islands)
     {
 #if NET
         if (_maxWidth >= 8 && islands.Count >= 8 && System.Runtime.Intrinsics.Vector512.IsHardwareAccelerated)
@@ -176,16 +189,16 @@ internal sealed class RattleSolver : ISolver, IStepParts
         AddGroups<ScalarLane>(islands);
     }
 
-    private void AddGroups<V>(List<Island> islands)
+    private void AddGroups<V>(List<LaneIsland> islands)
         where V : struct, ILane<V>
     {
-        foreach (List<Island> some in InGroups(islands))
+        foreach (List<LaneIsland> some in InGroups(islands))
         {
             _groups.Add(new LaneIslandGroup<V>(_mechanism, some));
         }
     }
 
-    private static IEnumerable<List<Island>> InGroups(List<Island> islands)
+    private static IEnumerable<List<T>> InGroups<T>(List<T> islands)
     {
         for (int first = 0; first < islands.Count; first += MostInGroup)
         {

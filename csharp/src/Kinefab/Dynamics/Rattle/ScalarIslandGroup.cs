@@ -25,7 +25,7 @@ internal sealed class ScalarIslandGroup : IslandGroup
         {
             _batches[i] = new LaneBatch<ScalarLane>(_islands[i], new Workspace<ScalarLane>(_islands[i]));
             _controllers[i] = new StepController(_batches[i]);
-            _corrections[i] = _islands[i].ScalarCount > 0 ? new StiffSpringCorrection(_batches[i], mechanism.Bodies) : null;
+            _corrections[i] = _islands[i].ScalarCount > 0 ? new StiffSpringCorrection(_islands[i], mechanism.Bodies) : null;
             LaneTransfer<ScalarLane>.GatherConstants(_batches[i], 0, _islands[i], mechanism);
         }
     }
@@ -52,10 +52,11 @@ internal sealed class ScalarIslandGroup : IslandGroup
             Note(_controllers[i], _islands[i], stops);
             if (_controllers[i].DampedSteps == stops)
             {
-                _corrections[i]?.Apply();
+                _corrections[i]?.Apply(batch);
             }
 
             LaneTransfer<ScalarLane>.EndStep(batch);
+            batch.Work.Active[0] = 1;
             LaneTransfer<ScalarLane>.Scatter(batch, 1, _mechanism);
             Reactions<ScalarLane>.Report(batch, 1, _mechanism, dt);
         }

@@ -17,6 +17,9 @@ internal sealed class StepController
     public const int MaxHalvings = 10;
     private const int MaxDepth = 12;
 
+    // Halvings of a part that no method takes: a scene that 64 times shorter steps can follow is not stopped.
+    private const int LastDepth = 18;
+
     // Halvings into even parts where limits and drives act: blows end the long account of energy for which the parts are even.
     private const int MaxEvenHalvings = 6;
 
@@ -30,7 +33,7 @@ internal sealed class StepController
     private const double MostEnergyChange = 0.002;
 
     // Largest growth of the energy in a step, springs included, where scalar rows may take any amount.
-    private const double MostEnergyGain = 0.005;
+    private const double MostEnergyGain = 5e-4;
 
     // Of what energy may grow by in a step, the share that is a part's from the start on; the rest comes with the time.
     private const double EarlyShare = 0.25;
@@ -40,7 +43,7 @@ internal sealed class StepController
     private readonly Substep _part;
     private readonly PositionProjection _closure;
     private readonly Snapshot _start;
-    private readonly Snapshot[] _substepStarts = new Snapshot[MaxDepth + 1];
+    private readonly Snapshot?[] _substepStarts = new Snapshot?[LastDepth + 1];
     private int _failures;
     private int _dampedInStep;
     private int _worst;
@@ -61,10 +64,6 @@ internal sealed class StepController
         _part = new Substep(batch, _exact);
         _closure = new PositionProjection(batch, _exact);
         _start = new Snapshot(batch);
-        for (int i = 0; i < _substepStarts.Length; i++)
-        {
-            _substepStarts[i] = new Snapshot(batch);
-        }
     }
 
     /// <summary>Substeps in which the island stood still: not even implicit Euler could take them, or too many before them.</summary>
@@ -263,7 +262,7 @@ internal sealed class StepController
 
     private void Halve(double h, int depth, double tolerance)
     {
-        Snapshot start = _substepStarts[depth];
+        Snapshot start = _substepStarts[depth] ??= new Snapshot(_batch);
         _part.SetLength(h);
         start.Save(_batch);
         bool isHopeless = _dampedInStep == MaxDampedSteps;
@@ -275,15 +274,18 @@ internal sealed class StepController
 
         if (!isHopeless && depth < MaxDepth && _failures++ < MaxFailures)
         {
-            Return(start, h);
-            Halve(h / 2, depth + 1, tolerance);
-            Halve(h / 2, depth + 1, tolerance);
-            _part.SetLength(h);
+            HalveAgain(start, h, depth, tolerance);
             return;
         }
 
         if (isHopeless || !TryFallback(start, h, depth, tolerance))
         {
+            if (!isHopeless && depth < LastDepth)
+            {
+                HalveAgain(start, h, depth, tolerance);
+                return;
+            }
+
             if (_dampedInStep == 0)
             {
                 MeasureWorstResidual(tolerance);
@@ -297,6 +299,14 @@ internal sealed class StepController
         }
 
         _elapsed += h;
+    }
+
+    private void HalveAgain(Snapshot start, double h, int depth, double tolerance)
+    {
+        Return(start, h);
+        Halve(h / 2, depth + 1, tolerance);
+        Halve(h / 2, depth + 1, tolerance);
+        _part.SetLength(h);
     }
 
     private bool TryFallback(Snapshot start, double h, int depth, double tolerance)

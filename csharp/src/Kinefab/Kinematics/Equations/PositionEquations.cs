@@ -173,6 +173,20 @@ internal sealed class PositionEquations
         return values[coordinate];
     }
 
+    /// <summary>
+    /// A row as a wrench about the mechanism's origin, for twists in its lengths. Body 1's side is the exact derivative: PhysX shortens
+    /// body 0's lever by the error.
+    /// </summary>
+    public static void Wrench(Linkage linkage, in ConstraintRow row, JointModel joint, Pose[] poses, double scale, out Vector3d force, out Vector3d moment)
+    {
+        force = row.Linear1 * (scale * linkage.Length);
+        moment = row.Angular1 * scale;
+        if (!row.Has(RowFlags.Angular))
+        {
+            moment += Vector3d.Cross((Linkage.PoseOf(joint.Body1, poses).Position - linkage.Origin) * scale, row.Linear1);
+        }
+    }
+
     private void AddJointRow(int joint, in ConstraintRow row, Pose[] poses)
     {
         RowPath path = _linkage.Rows.Joints[joint];
@@ -194,20 +208,21 @@ internal sealed class PositionEquations
         }
     }
 
-    // C = (q - sum of r_i q_i - offset) / u; dC = row / u - sum of r_i row_i / u, all over max(1, |r_i| u_i / u) so that a
-    // steep ratio weighs no more than a joint.
+    // C = (q - sum of r_i q_i - offset) / u; dC = row / u - sum of r_i row_i / u, all over the steepest of 1 and |r_i| u_i / u whose
+    // coordinate can change, so that a steep ratio weighs no more than a joint, and no less where the other side stands still.
     private void AddCoupling(int index, Pose[] poses, double[] values)
     {
         PositionCoupling coupling = _linkage.Couplings[index];
         RowPath path = _linkage.Rows.Couplings[index];
         double unit = UnitOf(coupling.Driven);
-        double steepest = 1;
+        double steepest = Moves(coupling.Driven) ? 1 : 0;
         for (int i = 0; i < coupling.Terms.Length; i++)
         {
-            steepest = Math.Max(steepest, Math.Abs(coupling.Ratios[i]) * UnitOf(coupling.Terms[i]) / unit);
+            double steep = Moves(coupling.Terms[i]) ? Math.Abs(coupling.Ratios[i]) * UnitOf(coupling.Terms[i]) / unit : 0;
+            steepest = Math.Max(steepest, steep);
         }
 
-        double scale = 1 / (unit * steepest);
+        double scale = 1 / (unit * (steepest > 0 ? steepest : 1));
         Array.Clear(_row, 0, path.Width);
         double c = Evaluate(coupling.Driven, poses, values, out ConstraintRow row);
         Scatter(path, coupling.Driven, row, poses, scale);
@@ -230,13 +245,16 @@ internal sealed class PositionEquations
         Add(path, c);
     }
 
+    // Whether any freedom does: its joint may be between two bodies that stand still.
+    private bool Moves(int coordinate) => _linkage.Rows.Joints[_linkage.Coordinates[coordinate].Joint].Bodies.Length > 0;
+
     private double UnitOf(int coordinate) => _linkage.Coordinates[coordinate].IsAngle ? 1 : _linkage.Length;
 
     private void Scatter(RowPath union, int coordinate, in ConstraintRow row, Pose[] poses, double scale)
     {
         MechanismCoordinate source = _linkage.Coordinates[coordinate];
         RowPath path = _linkage.Rows.Joints[source.Joint];
-        Wrench(row, source.JointRows, poses, scale, out Vector3d force, out Vector3d moment);
+        Wrench(_linkage, row, source.JointRows, poses, scale, out Vector3d force, out Vector3d moment);
         for (int k = 0; k < path.Bodies.Length; k++)
         {
             int at = union.Starts[Array.IndexOf(union.Bodies, path.Bodies[k])];
@@ -250,20 +268,8 @@ internal sealed class PositionEquations
 
     private void Pack(RowPath path, in ConstraintRow row, JointModel joint, Pose[] poses, double scale)
     {
-        Wrench(row, joint, poses, scale, out Vector3d force, out Vector3d moment);
+        Wrench(_linkage, row, joint, poses, scale, out Vector3d force, out Vector3d moment);
         Pack(path, force, moment);
-    }
-
-    // The row as a wrench about the mechanism's origin, for twists in its lengths. Body 1's side is the exact derivative:
-    // PhysX shortens body 0's lever by the error.
-    private void Wrench(in ConstraintRow row, JointModel joint, Pose[] poses, double scale, out Vector3d force, out Vector3d moment)
-    {
-        force = row.Linear1 * (scale * _linkage.Length);
-        moment = row.Angular1 * scale;
-        if (!row.Has(RowFlags.Angular))
-        {
-            moment += Vector3d.Cross((Linkage.PoseOf(joint.Body1, poses).Position - _linkage.Origin) * scale, row.Linear1);
-        }
     }
 
     private void Pack(RowPath path, Vector3d force, Vector3d moment)

@@ -37,9 +37,6 @@ internal sealed class FiniteMobility
     /// <summary>Freedoms of the velocities at poses in general position, the least that Count found.</summary>
     public int AtGeneralPose { get; private set; }
 
-    /// <summary>The velocities some steps away from the exported pose, where Count looked.</summary>
-    public VelocitySpace? Away { get; private set; }
-
     /// <summary>The finite freedoms.</summary>
     public int Count(MechanismState start, CancellationToken cancellation)
     {
@@ -51,7 +48,6 @@ internal sealed class FiniteMobility
         }
 
         var space = new VelocitySpace(_linkage, _newton, _blocks, state);
-        Away = space;
         int count = 0;
         MechanismState moved = state.Clone();
         foreach (double length in ProbeLengths)

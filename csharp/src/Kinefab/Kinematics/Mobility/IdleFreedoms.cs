@@ -1,220 +1,287 @@
 using System;
 using System.Collections.Generic;
-using System.Linq;
 using System.Threading;
 using Kinefab.Numerics;
 
 namespace Kinefab.Kinematics;
 
 /// <summary>
-/// Freedoms of a body, or of a leg of bodies between two others, that move nothing else, which are its motions while all others stand
-/// still: a rod's spin between its two balls. In a single loop: of bodies that turn in it as one.
+/// Motions of one body of a loop, or of several that two joints hold between others and that move as one, while all others stand still: a
+/// rod's spin between its two balls, a ram's. The joints round them leave them a twist in common. What hangs on them and is in no loop
+/// with them is one of the others. A block's only freedom is what it does, and not idle.
 /// </summary>
 internal sealed class IdleFreedoms
 {
-    private const double LeastMotion = 1e-6;
+    // How far the cosine between two joints' twists, squared, may be from 1.
+    private const double Shared = 1e-12;
+
+    // Length of a motion beside those already found from which it is another one.
+    private const double New = 1e-6;
+
+    // Difference of two unit twists, along any direction, beyond which they are not shared.
+    private const double Near = 4e-6;
+
+    // A direction, about one long, that favours no twist, to sort them along.
+    private static readonly double[] Aslant = { 0.37, 0.43, 0.29, 0.53, 0.41, 0.39 };
 
     private readonly Mechanism _mechanism;
     private readonly IndependentLinkages _parts;
-    private readonly DisjointSets _rigid;
-    private readonly Dictionary<int, SortedSet<int>> _neighbours;
-    private readonly Dictionary<int, List<int>> _members = new();
+    private readonly LoopMobility[] _loops;
+    private readonly MechanismState _closed;
+    private readonly JointGraph _graph;
+    private readonly CutPairs _cuts;
+    private readonly List<(int Node, double[] Twist)[]> _known = new();
+    private readonly List<int>[] _knownOf;
+    private readonly int[] _left;
+    private readonly List<IdleFreedom> _found = new();
 
-    /// <summary>Finds which bodies of a mechanism stand beside which.</summary>
-    public IdleFreedoms(Mechanism mechanism, IndependentLinkages parts)
+    private IdleFreedoms(Mechanism mechanism, IndependentLinkages parts, LoopMobility[] loops, MechanismState closed)
     {
         _mechanism = mechanism;
         _parts = parts;
-        _rigid = RigidGroups(mechanism);
-        _neighbours = Neighbours(mechanism, _rigid);
-        foreach (int body in mechanism.Tree.Order)
-        {
-            int group = _rigid.Find(body);
-            if (!_members.TryGetValue(group, out List<int>? members))
-            {
-                _members.Add(group, members = new List<int>());
-            }
+        _loops = loops;
+        _closed = closed;
+        _graph = new JointGraph(mechanism, parts, closed);
+        _cuts = new CutPairs(_graph.Members.Count, _graph.Pairs);
+        _knownOf = new List<int>[_graph.Members.Count];
+        _left = Array.ConvertAll(loops, loop => loop.Finite < 2 ? 0 : loop.Finite);
+    }
 
-            members.Add(body);
+    /// <summary>All of a mechanism.</summary>
+    /// <param name="mechanism">Which.</param>
+    /// <param name="parts">Its blocks.</param>
+    /// <param name="loops">What each of these can do.</param>
+    /// <param name="closed">The pose that they were counted at.</param>
+    /// <param name="cancellation">Ends the counting early, with an OperationCanceledException.</param>
+    public static List<IdleFreedom> Of(Mechanism mechanism, IndependentLinkages parts, LoopMobility[] loops, MechanismState closed, CancellationToken cancellation)
+    {
+        if (mechanism.Tree.Closures.Length == 0)
+        {
+            return new List<IdleFreedom>();
+        }
+
+        var idle = new IdleFreedoms(mechanism, parts, loops, closed);
+        for (int node = 1; node < idle._graph.Members.Count; node++)
+        {
+            idle.AddSingle(node, cancellation);
+        }
+
+        foreach (List<int> edges in idle._cuts.Classes)
+        {
+            foreach ((int first, int last) in idle.Left(edges[0]) > 0 ? idle.Sharing(edges) : new List<(int, int)>())
+            {
+                idle.AddBetween(first, last, cancellation);
+            }
+        }
+
+        return idle._found;
+    }
+
+    // One node by itself; a chain's end is in no loop. A root that is not the ground hangs on nothing else.
+    private void AddSingle(int node, CancellationToken cancellation)
+    {
+        List<int> edges = _cuts.EdgesOf(node);
+        if (edges.Count < 2)
+        {
+            return;
+        }
+
+        int up = _cuts.ParentEdges[node] >= 0 ? _cuts.ParentEdges[node] : edges[0];
+        if (_cuts.BlockOf[up] >= 0 && Left(up) > 0)
+        {
+            Add(new List<int> { node }, up, WhatAllLeave(_graph.Twists(up), edges, Tolerance(up)), cancellation);
         }
     }
 
-    /// <summary>Of one block's velocities; a free end of a chain is no loop, and not idle.</summary>
-    /// <param name="loop">What the block can do.</param>
-    /// <param name="movers">The bodies that have freedoms in it.</param>
-    /// <param name="closed">The pose that it was counted at.</param>
-    /// <param name="cancellation">Ends the counting early, with an OperationCanceledException.</param>
-    public IEnumerable<IdleFreedom> Of(LoopMobility loop, IReadOnlyList<int> movers, MechanismState closed, CancellationToken cancellation)
+    // What lies between two edges that cut a block, away from its root.
+    private void AddBetween(int first, int last, CancellationToken cancellation)
     {
-        if (loop.Finite < 2 || movers.Count < 2)
+        int begin = _cuts.Lower(first);
+        (int end, int after) = _cuts.IsOfTree(last) ? (_cuts.Upper(last), _cuts.Lower(last)) : (_cuts.Lower(last), _cuts.Upper(last));
+        double shared = Tolerance(first);
+        if (begin == end || _cuts.Upper(first) == after || Left(first) == 0)
         {
-            yield break;
+            return; // one node, or all that hangs on one
         }
 
-        var velocities = new LoopMotions(loop, loop.Here, movers, _rigid);
-        List<List<int>> legs = Legs(velocities.Groups, _neighbours);
-        if (legs.Count == 1)
+        List<double[]> twists = TwistSpan.Common(_graph.Twists(first), _graph.Twists(last), shared);
+        var members = new List<int> { begin };
+        var seen = new HashSet<int> { begin };
+        for (int i = 0; i < members.Count && twists.Count > 0; i++)
         {
-            if (loop.Motions is null)
+            foreach (int edge in _cuts.EdgesOf(members[i]))
             {
-                yield break;
-            }
-
-            foreach ((List<int> turning, int count) in SingleLoop.TurningAlone(new LoopMotions(loop, loop.Motions, movers, _rigid), _neighbours))
-            {
-                // What hangs on them may have to move along.
-                int alone = HasOthersBeside(turning, velocities.Groups) ? Math.Min(count, Alone(turning, closed, cancellation)) : count;
-                if (alone > 0)
+                if (_cuts.BlockOf[edge] < 0 || _cuts.BlockOf[edge] != _cuts.BlockOf[first])
                 {
-                    yield return new IdleFreedom(GameObjects(turning), alone);
+                    twists = TwistSpan.Common(twists, _graph.Twists(edge), shared);
+                }
+                else if (edge != first && edge != last && seen.Add(_cuts.Other(edge, members[i])))
+                {
+                    members.Add(_cuts.Other(edge, members[i]));
                 }
             }
-
-            yield break;
         }
 
-        foreach (List<int> leg in legs)
+        Add(members, first, twists, cancellation);
+    }
+
+    private void Add(List<int> nodes, int edge, List<double[]> twists, CancellationToken cancellation)
+    {
+        cancellation.ThrowIfCancellationRequested();
+        twists = _graph.LeftByCouplings(nodes, twists);
+        if (twists.Count == 0 || Left(edge) == 0)
         {
-            // What moves by itself seems to from the first; whether it does is asked with all else held.
-            int count = velocities.Count > RankWithout(leg, velocities) ? Alone(leg, closed, cancellation) : 0;
-            if (count > 0)
+            return;
+        }
+
+        // The joints may leave the twist to first order alone, as a slot across does.
+        int count = Alone(nodes, cancellation);
+        int found = 0;
+        foreach (double[] twist in twists)
+        {
+            found += found < count && IsNew(nodes, twist) ? 1 : 0; // a ram's spin is that of its tube and of its piston, if these turn
+        }
+
+        if (found > 0)
+        {
+            _found.Add(new IdleFreedom(GameObjects(nodes), found));
+            if (_graph.Blocks[edge] >= 0)
             {
-                yield return new IdleFreedom(GameObjects(leg), count);
+                _left[_graph.Blocks[edge]] -= found;
             }
         }
     }
 
-    // Freedoms of finite motion of some groups while all others stand still.
-    private int Alone(List<int> leg, MechanismState closed, CancellationToken cancellation)
+    private List<double[]> WhatAllLeave(List<double[]> twists, List<int> edges, double shared)
+    {
+        for (int i = 0; i < edges.Count && twists.Count > 0; i++)
+        {
+            twists = TwistSpan.Common(twists, _graph.Twists(edges[i]), shared);
+        }
+
+        return twists;
+    }
+
+    // Freedoms of an edge's block that are not yet known to be idle; none where it has but one; of a block that nothing ties, any number.
+    private int Left(int edge) => _graph.Blocks[edge] < 0 ? int.MaxValue : _left[_graph.Blocks[edge]];
+
+    private double Tolerance(int edge)
+    {
+        double noise = _graph.Blocks[edge] < 0 ? 0 : _loops[_graph.Blocks[edge]].Here.Noise;
+        return Math.Max(Shared, noise * noise);
+    }
+
+    // Pairs of a class that may share a twist, the nearest first. Hinges, of which a loop may have hundreds, share theirs only where it is
+    // the same, so they are sorted by it; the few joints with more freedoms are paired with all.
+    private List<(int First, int Last)> Sharing(List<int> edges)
+    {
+        var pairs = new List<(int Distance, int First)>();
+        var plain = new List<(double Key, int Place)>();
+        for (int i = 0; i < edges.Count; i++)
+        {
+            if (_graph.Twists(edges[i]).Count == 1)
+            {
+                plain.Add((Math.Abs(DenseVector.Dot(_graph.Twists(edges[i])[0], Aslant)), i));
+                continue;
+            }
+
+            for (int j = 0; j < edges.Count; j++)
+            {
+                if (_graph.Twists(edges[j]).Count == 1 || j > i)
+                {
+                    pairs.Add((Math.Abs(i - j), Math.Min(i, j)));
+                }
+            }
+        }
+
+        plain.Sort();
+        double near = Near * Math.Sqrt(Tolerance(edges[0]) / Shared);
+        for (int k = 0; k < plain.Count; k++)
+        {
+            for (int l = k + 1; l < plain.Count && plain[l].Key - plain[k].Key <= near; l++)
+            {
+                pairs.Add((Math.Abs(plain[k].Place - plain[l].Place), Math.Min(plain[k].Place, plain[l].Place)));
+            }
+        }
+
+        pairs.Sort();
+        return pairs.ConvertAll(pair => (edges[pair.First], edges[pair.First + pair.Distance]));
+    }
+
+    private bool IsNew(List<int> nodes, double[] twist)
+    {
+        var motion = new Dictionary<int, double[]>();
+        var beside = new SortedSet<int>();
+        foreach (int node in nodes)
+        {
+            motion[node] = Array.ConvertAll(twist, entry => entry / Math.Sqrt(nodes.Count));
+            beside.UnionWith(_knownOf[node] ??= new List<int>());
+        }
+
+        foreach (int known in beside)
+        {
+            double along = 0;
+            foreach ((int node, double[] part) in _known[known])
+            {
+                along += motion.TryGetValue(node, out double[]? own) ? DenseVector.Dot(own, part) : 0;
+            }
+
+            foreach ((int node, double[] part) in _known[known])
+            {
+                if (!motion.TryGetValue(node, out double[]? own))
+                {
+                    motion.Add(node, own = new double[6]);
+                }
+
+                for (int i = 0; i < 6; i++)
+                {
+                    own[i] -= along * part[i];
+                }
+            }
+        }
+
+        double rest = 0;
+        foreach (double[] part in motion.Values)
+        {
+            rest += DenseVector.Dot(part, part);
+        }
+
+        rest = Math.Sqrt(rest);
+        if (rest <= New)
+        {
+            return false;
+        }
+
+        var left = new List<(int Node, double[] Twist)>();
+        foreach ((int node, double[] part) in motion)
+        {
+            DenseVector.Divide(part, rest);
+            left.Add((node, part));
+            (_knownOf[node] ??= new List<int>()).Add(_known.Count);
+        }
+
+        _known.Add(left.ToArray());
+        return true;
+    }
+
+    // Freedoms of finite motion of some nodes while all others stand still.
+    private int Alone(List<int> nodes, CancellationToken cancellation)
     {
         var moving = new HashSet<int>();
-        foreach (int group in leg)
+        foreach (int node in nodes)
         {
-            moving.UnionWith(_members[group]);
+            moving.UnionWith(_graph.Members[node]);
         }
 
-        return new LoopMobility(_parts.Alone(moving), closed, cancellation).Finite;
+        return new LoopMobility(_parts.Alone(moving), _closed, cancellation).Finite;
     }
 
-    // Whether anything stands beside some groups of a loop that is neither in the loop nor where it begins and ends.
-    private bool HasOthersBeside(List<int> some, List<int> loop)
-    {
-        var inside = new HashSet<int>(loop);
-        int? root = SingleLoop.Root(loop, _neighbours);
-        return some.Exists(group => _neighbours[group].Any(other => other != root && !inside.Contains(other)));
-    }
-
-    // Bodies that a tree joint without freedoms holds to their parent are one.
-    private static DisjointSets RigidGroups(Mechanism mechanism)
-    {
-        var rigid = new DisjointSets(mechanism.BodyCount);
-        foreach (int body in mechanism.Tree.Order)
-        {
-            if (mechanism.Tree.Freedoms[body] == 0 && mechanism.Tree.Parents[body] >= 0)
-            {
-                rigid.Join(body, mechanism.Tree.Parents[body]);
-            }
-        }
-
-        return rigid;
-    }
-
-    private static Dictionary<int, SortedSet<int>> Neighbours(Mechanism mechanism, DisjointSets rigid)
-    {
-        var neighbours = new Dictionary<int, SortedSet<int>>();
-        foreach (Joints.JointModel joint in mechanism.Joints)
-        {
-            int a = Group(joint.Body0);
-            int b = Group(joint.Body1);
-            if (a != b)
-            {
-                Beside(a).Add(b);
-                Beside(b).Add(a);
-            }
-        }
-
-        return neighbours;
-
-        int Group(int body) => mechanism.Tree.Moving(body) < 0 ? KinematicTree.Ground : rigid.Find(body);
-
-        SortedSet<int> Beside(int group)
-        {
-            if (!neighbours.TryGetValue(group, out SortedSet<int>? beside))
-            {
-                neighbours.Add(group, beside = new SortedSet<int>());
-            }
-
-            return beside;
-        }
-    }
-
-    // Chains of groups with two neighbours each, as long as they go; other groups by themselves.
-    private static List<List<int>> Legs(List<int> groups, Dictionary<int, SortedSet<int>> neighbours)
-    {
-        var inside = new HashSet<int>(groups);
-        var seen = new HashSet<int>();
-        var legs = new List<List<int>>();
-        foreach (int group in groups)
-        {
-            if (!seen.Add(group))
-            {
-                continue;
-            }
-
-            var leg = new List<int> { group };
-            foreach (int start in neighbours[group].Count == 2 ? neighbours[group] : new SortedSet<int>())
-            {
-                int next = start;
-                while (inside.Contains(next) && neighbours[next].Count == 2 && seen.Add(next))
-                {
-                    leg.Add(next);
-                    foreach (int after in neighbours[next])
-                    {
-                        next = seen.Contains(after) ? next : after;
-                    }
-                }
-            }
-
-            legs.Add(leg);
-        }
-
-        return legs;
-    }
-
-    // Rank of the motions as all groups but the leg's show them.
-    private static int RankWithout(List<int> leg, LoopMotions motions)
-    {
-        var twists = new double[6 * (motions.Groups.Count - leg.Count), motions.Count];
-        int row = 0;
-        foreach (int group in motions.Groups)
-        {
-            if (leg.Contains(group))
-            {
-                continue;
-            }
-
-            for (int m = 0; m < motions.Count; m++)
-            {
-                motions.Twist(group, m, out Vector3d linear, out Vector3d angular);
-                for (int i = 0; i < 3; i++)
-                {
-                    twists[row + i, m] = linear[i];
-                    twists[row + 3 + i, m] = angular[i];
-                }
-            }
-
-            row += 6;
-        }
-
-        return new SingularValues(twists).Rank(Math.Max(LeastMotion, motions.Noise));
-    }
-
-    private List<int> GameObjects(List<int> leg)
+    private List<int> GameObjects(List<int> nodes)
     {
         var objects = new List<int>();
-        foreach (int group in leg)
+        foreach (int node in nodes)
         {
-            foreach (int body in _members[group])
+            foreach (int body in _graph.Members[node])
             {
                 objects.Add(_mechanism.GameObjects[body]);
             }

@@ -27,27 +27,19 @@ internal sealed class LoopMobility
         Rank = newton.Motion.Linear.Length - Here.Freedoms;
         if (NoisyRows.Keep(newton, Here, state))
         {
-            (Finite, AtGeneralPose, Motions) = (Here.Freedoms, Here.Freedoms, Here);
+            (Finite, AtGeneralPose) = (Here.Freedoms, Here.Freedoms);
             return;
         }
 
         var finite = new FiniteMobility(part.Linkage, newton, blocks);
         Finite = finite.Count(state, cancellation);
         AtGeneralPose = finite.AtGeneralPose;
-        VelocitySpace away = finite.Away ?? Here;
-        Motions = Here.Freedoms == Finite ? Here : away.Freedoms == Finite ? away : null;
     }
 
     public IndependentLinkage Part { get; }
 
     /// <summary>The velocities at the exported pose.</summary>
     public VelocitySpace Here { get; }
-
-    /// <summary>
-    /// As many velocities as there are finite motions: those at the exported pose, or, where these are more, those some steps away
-    /// if they are not: there no part seems to move alone that cannot. Null where both are more.
-    /// </summary>
-    public VelocitySpace? Motions { get; }
 
     /// <summary>Freedoms of the velocities at the exported pose.</summary>
     public int FirstOrder => Here.Freedoms;

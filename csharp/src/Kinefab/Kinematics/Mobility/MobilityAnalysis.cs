@@ -27,9 +27,7 @@ public static class MobilityAnalysis
         newton.Motion.Start(state.Poses);
         var blocks = new FreedomBlocks(mechanism.Linkage, newton.Firsts, newton.Motion.Linear.Length);
         var parts = new IndependentLinkages(mechanism.Linkage, blocks, newton.Firsts);
-        var idleFreedoms = new IdleFreedoms(mechanism, parts);
         var loops = new LoopMobility[parts.Count];
-        var idle = new List<IdleFreedom>();
         int[] redundant = RowsThatTieNothing(mechanism);
         double gap = double.PositiveInfinity;
         int general = Array.FindAll(blocks.BlockOf, block => block < 0).Length;
@@ -39,11 +37,11 @@ public static class MobilityAnalysis
             progress?.Report((double)b / loops.Length);
             loops[b] = new LoopMobility(parts.Make(b, state.Poses), state, cancellation);
             loops[b].CountRedundant(redundant);
-            idle.AddRange(idleFreedoms.Of(loops[b], parts.Movers(b), state, cancellation));
             gap = Math.Min(gap, loops[b].Here.Gap);
             general += loops[b].AtGeneralPose;
         }
 
+        List<IdleFreedom> idle = IdleFreedoms.Of(mechanism, parts, loops, state, cancellation);
         progress?.Report(1);
         var islands = Islands(mechanism, parts, loops);
         int mobility = 0;

@@ -157,7 +157,7 @@ public sealed class MobilityReport
     /// <summary>The joints with redundant rows, by GameObject and component.</summary>
     public IReadOnlyList<RedundantRows> Joints { get; }
 
-    /// <summary>Freedoms that move nothing but a part of a loop's leg.</summary>
+    /// <summary>Freedoms of a loop's body, or of several that move as one between two joints, that move no other body.</summary>
     public IReadOnlyList<IdleFreedom> Idle { get; }
 
     /// <summary>mobility 1 (2 at first order), 10 rows, 3 redundant, 0 idle freedoms, 1 islands.</summary>

@@ -122,6 +122,31 @@ internal sealed class VelocitySpace
         }
     }
 
+    /// <summary>How many singular values count.</summary>
+    /// <param name="values">Falling.</param>
+    /// <param name="size">
+    /// What a row's largest is where none is lost; it stands before them, so that the border may lie below them all.
+    /// </param>
+    public static int Rank(IReadOnlyList<double> values, double size)
+    {
+        double largest = values.Count == 0 ? size : Math.Max(values[0], size);
+        int rank = values.Count;
+        double widest = 0;
+        for (int r = 0; r <= values.Count; r++)
+        {
+            double above = (r > 0 ? values[r - 1] : size) / largest;
+            double below = (r < values.Count ? values[r] : 0) / largest;
+            double width = above / Math.Max(below, LeastShare);
+            if (above > LeastShare && below < LargestShare && width > widest)
+            {
+                widest = width;
+                rank = r;
+            }
+        }
+
+        return rank;
+    }
+
     private void AddMotions(NewtonSolver newton, IReadOnlyList<int> columns, List<int> rows, int freedoms, double size)
     {
         var columnOf = new Dictionary<int, int>();
@@ -281,26 +306,5 @@ internal sealed class VelocitySpace
         }
 
         return vector;
-    }
-
-    // size: what a row's largest singular value is where none is lost; it stands before them, so that the border may lie below them all.
-    private static int Rank(List<double> values, double size)
-    {
-        double largest = values.Count == 0 ? size : Math.Max(values[0], size);
-        int rank = values.Count;
-        double widest = 0;
-        for (int r = 0; r <= values.Count; r++)
-        {
-            double above = (r > 0 ? values[r - 1] : size) / largest;
-            double below = (r < values.Count ? values[r] : 0) / largest;
-            double width = above / Math.Max(below, LeastShare);
-            if (above > LeastShare && below < LargestShare && width > widest)
-            {
-                widest = width;
-                rank = r;
-            }
-        }
-
-        return rank;
     }
 }

@@ -1,31 +1,41 @@
-"""Freedoms that move nothing else: a rod spinning between its two balls."""
+"""Freedoms that move nothing else: a rod spinning between its two balls.
+
+A motion is idle in which one body of a loop moves, or several that two joints hold between others and that move as one,
+and after which no other body has moved.  The joints round them then leave them a twist in common.  What hangs on them and
+is in no loop with them is one of the others; so is what a coupling would move.  A block's only freedom is what it does,
+and not idle.
+"""
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from collections.abc import Iterator
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 
-from ...spatial import Array, IntArray
+from ...partition import Partition
+from ...spatial import Array, cross
 from ..assembly.assemble import Assembly
+from ..assembly.cut_pairs import CutPairs, cut_pairs
 from ..equations.solve import Solver
-from ..freedom.first_order import BlockFreedom, block_freedoms
-from ..freedom.motion import finite_freedoms, walked
-from ..freedom.rank import spans
-from .tied import TiedPart, tied_parts
+from ..equations.system import System
+from ..freedom.first_order import block_freedoms
+from ..freedom.motion import finite_freedoms
+from ..freedom.stacks import alike
+from ..pairs.relations import Pairs, batched_null_spaces, pairs_of, relative_rows
 
 ALONE = 1e-12
-"""Share of a motion, squared, that all other bodies may have in it; of a shared twist, that is not the other joint's."""
+"""How far the cosine between two joints' twists, squared, may be from 1."""
 NEW = 1e-6
 """Length of a motion beside those already found from which it is another one."""
 NEAR = 4e-6
 """Difference of two unit twists, along any direction, beyond which they are not shared up to ``ALONE``."""
 ASLANT = np.array([0.37, 0.43, 0.29, 0.53, 0.41, 0.39])
 """A direction, about one long, that favours no twist, to sort them along."""
+STILL = 1e-6
+"""Rate of a coupling, beside the largest of its joints', that a twist does not change."""
 MOST = 10_000
 """Pairs of joints compared at once, which bounds the memory."""
-MOVING = 1e-7
-"""Share of a joint's largest singular value below which it has no further freedom in any motion."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -37,189 +47,223 @@ class IdleFreedom:
 
 
 def idle_freedoms(assembly: Assembly) -> list[IdleFreedom]:
-    """Freedoms of a single body, or of a leg of bodies between two others, that move nothing else: motions from the
-    closed pose on while all others stand still; in a single loop, of bodies that turn in it as one."""
-    neighbours: dict[int, set[int]] = {}
-    low, high = assembly.system.body_a, assembly.system.body_b
-    for i, j in set(zip(low.tolist(), high.tolist())):
-        neighbours.setdefault(i, set()).add(j)
-        neighbours.setdefault(j, set()).add(i)
-    found: list[IdleFreedom] = []
-    for part, (first, finite) in enumerate(zip(assembly.freedoms, assembly.finite)):
-        if finite.mobility < 2 or len(first.bodies) < 2:
-            continue
-        for number, tied in enumerate(tied_parts(assembly, first)):
-            for bodies, count in _idle_in(assembly, part, number, tied, neighbours):
-                nodes = sorted(n for body in bodies for n in assembly.nodes[body])
-                found.append(IdleFreedom(tuple(nodes), count))
+    """All of them, at the closed pose, the smallest sets of bodies first."""
+    if not assembly.freedoms or not len(assembly.pairs):
+        return []
+    search = _search_of(assembly)
+    found = list(search.singles())
+    for edges in search.cuts.classes:
+        for first, last in _sharing(edges, search.twists, search.tolerance(edges[0])):
+            found += search.between(first, last)
     return found
 
 
-def _idle_in(
-    assembly: Assembly, part: int, number: int, tied: TiedPart, neighbours: dict[int, set[int]]
-) -> list[tuple[list[int], int]]:
-    """Bodies of one part that move alone, and in how many ways.  number: of the part among the block's."""
-    freedom = tied.freedom
-    if freedom.mobility < 2 or len(freedom.bodies) < 2:
-        return []
-    legs = _legs(freedom.bodies.tolist(), neighbours)
-    if len(legs) > 1:
-        # What moves by itself seems to from the first; whether it does is asked with all else held.
-        rows = assembly.freedoms[part].rows
-        counted = [(leg, _with_all_else_held(assembly, rows, leg)) for leg in legs if _alone(freedom, leg)]
-        return [(leg, count) for leg, count in counted if count]
-    moving = None if tied.coupled else _moving(assembly, part)
-    if moving is None:
-        return []  # a coupling between joints of the loop, or nothing to be told
-    alone = tied_parts(assembly, moving)[number].freedom
-    rows, ring = assembly.freedoms[part].rows, _ring(tied.root, neighbours, legs[0])
-    found = _turning_in_a_loop(assembly, alone, ring)
-    loop = {tied.root, *ring}
-    for i, (bodies, count) in enumerate(found):
-        if any(neighbours[body] - loop for body in bodies):  # what hangs on them may have to move along
-            found[i] = bodies, min(count, _with_all_else_held(assembly, rows, bodies))
-    return [(bodies, count) for bodies, count in found if count]
+@dataclass(slots=True, eq=False)
+class _Search:
+    """bodies: of each node, bodies that nothing lets move against each other.  twists: orthonormal, shape (6, n), by which
+    the two nodes of each edge may move against each other, all about one point.  part: of each edge, of ``freedoms``.
+    coupled: of each row over several pairs, by the nodes of each of its atoms, what a twist of the second adds to it, shape
+    (6,).  left: freedoms of each part that are not known to be idle.  known: motions found, by node, orthonormal; known_of:
+    those in which a node moves.
+    """
+
+    assembly: Assembly
+    bodies: list[list[int]]
+    cuts: CutPairs
+    twists: list[Array]
+    part: list[int]
+    coupled: list[list[tuple[int, int, Array]]]
+    left: list[int]
+    known: list[dict[int, Array]] = field(default_factory=list[dict[int, Array]])
+    known_of: dict[int, list[int]] = field(default_factory=dict[int, list[int]])
+
+    def tolerance(self, edge: int) -> float:
+        """``ALONE``, or what noise in an edge's part makes of it."""
+        return max(ALONE, self.assembly.freedoms[self.part[edge]].noise ** 2)
+
+    def singles(self) -> Iterator[IdleFreedom]:
+        """Nodes by themselves.  A chain's end is in no loop; a root that is not the ground hangs on nothing else."""
+        for node in range(1, len(self.bodies)):
+            edges = self.cuts.edges_of[node]
+            if len(edges) < 2:
+                continue
+            up = self.cuts.parent[node] if self.cuts.parent[node] >= 0 else edges[0]
+            if self.cuts.block[up] >= 0:
+                twists = self.twists[up]
+                for edge in edges:
+                    twists = _common(twists, self.twists[edge], self.tolerance(up))
+                yield from self._alone([node], up, twists)
+
+    def between(self, first: int, last: int) -> Iterator[IdleFreedom]:
+        """What lies between two edges that cut a block, away from its root."""
+        cuts = self.cuts
+        begin, end, after = cuts.lower(first), cuts.upper(last), cuts.lower(last)
+        if not cuts.of_tree(last):
+            end, after = after, end
+        if begin == end or cuts.upper(first) == after or not self.left[self.part[first]]:
+            return  # one node, or all that hangs on one
+        tolerance = self.tolerance(first)
+        twists = _common(self.twists[first], self.twists[last], tolerance)
+        nodes, seen = [begin], {begin}
+        for node in nodes:
+            if not twists.shape[1]:
+                return
+            for edge in cuts.edges_of[node]:
+                other = cuts.other(edge, node)
+                if cuts.block[edge] < 0 or cuts.block[edge] != cuts.block[first]:
+                    twists = _common(twists, self.twists[edge], tolerance)
+                elif edge not in (first, last) and other not in seen:
+                    seen.add(other)
+                    nodes.append(other)
+        yield from self._alone(nodes, first, twists)
+
+    def _alone(self, nodes: list[int], edge: int, twists: Array) -> Iterator[IdleFreedom]:
+        """Of one set of nodes what is not known.  twists: what all the joints round them leave."""
+        part = self.part[edge]
+        twists = self._left_by_couplings(set(nodes), twists)
+        if not twists.shape[1] or not self.left[part]:
+            return
+        bodies = sorted(body for node in nodes for body in self.bodies[node])
+        # the joints may leave a twist to first order alone, as a slot across does
+        most = _with_all_else_held(self.assembly, bodies)
+        count = 0
+        for twist in twists.T:  # a ram's spin is that of its tube and its piston, if these turn
+            if count < most and self._is_new(nodes, twist):
+                count += 1
+        if count:
+            self.left[part] -= count
+            yield IdleFreedom(tuple(sorted(n for body in bodies for n in self.assembly.nodes[body])), count)
+
+    def _left_by_couplings(self, nodes: set[int], twists: Array) -> Array:
+        """What couplings leave of twists of some nodes, as one, while all others stand still."""
+        for atoms in self.coupled:
+            moving = [((b in nodes) - (a in nodes)) * wrench for a, b, wrench in atoms]
+            rates = np.sum(moving, axis=0) @ twists
+            if np.linalg.norm(rates) > STILL * max(float(np.linalg.norm(wrench)) for wrench in moving):
+                twists = twists @ np.linalg.svd(rates[None])[2][1:].T
+        return twists
+
+    def _is_new(self, nodes: list[int], twist: Array) -> bool:
+        """Whether a motion is none of those known; then it is from now on."""
+        motion = {node: twist / np.sqrt(len(nodes)) for node in nodes}
+        for number in sorted({k for node in nodes for k in self.known_of.get(node, [])}):
+            other = self.known[number]
+            along = sum(float(motion[node] @ own) for node, own in other.items() if node in motion)
+            for node, own in other.items():
+                motion[node] = motion.get(node, 0.0) - along * own
+        rest = np.sqrt(sum(float(own @ own) for own in motion.values()))
+        if rest <= NEW:
+            return False
+        for node in motion:
+            self.known_of.setdefault(node, []).append(len(self.known))
+        self.known.append({node: own / rest for node, own in motion.items()})
+        return True
 
 
-def _with_all_else_held(assembly: Assembly, of_block: IntArray, leg: list[int]) -> int:
-    """Freedoms of finite motion that a leg's bodies have while all others stand still, those that hang on them too.
+def _search_of(assembly: Assembly) -> _Search:
+    """The graph of an assembly's bodies.  Those that only a joint which may break keeps apart are one node."""
+    length = assembly.equations.length
+    system, label = assembly.system, np.arange(assembly.system.bodies)
+    while True:
+        pairs = pairs_of(system)
+        twists, point = _twists_of(system, pairs, length)
+        if all(own.shape[1] for own in twists):
+            break
+        partition = Partition(system.bodies)
+        for i, own in enumerate(twists):
+            if not own.shape[1]:
+                partition.join(int(pairs.first[i]), int(pairs.second[i]))
+        labels = partition.labels()
+        label, system = labels[label], replace(system.relabel(labels), length=np.full(system.bodies, length))
+    numbers, rows = np.unique(pairs.row_pair, return_index=True)
+    bodies: list[list[int]] = [[] for _ in range(system.bodies)]
+    for body, node in enumerate(label.tolist()):
+        bodies[node].append(body)
+    cuts = cut_pairs(system.bodies, list(zip(pairs.first.tolist(), pairs.second.tolist())))
+    part = assembly.solver.row_part[rows[numbers >= 0]].tolist()
+    coupled = _coupled(system, pairs, point, length)
+    left = [finite.mobility if finite.mobility > 1 else 0 for finite in assembly.finite]
+    return _Search(assembly, bodies, cuts, twists, part, coupled, left)
 
-    of_block: the block's rows."""
-    system, bodies = assembly.system, np.array(sorted(leg))
+
+def _coupled(system: System, pairs: Pairs, point: Array, length: float) -> list[list[tuple[int, int, Array]]]:
+    """The rows over several pairs, see ``_Search``."""
+    atoms = np.flatnonzero((pairs.row_pair[system.row] == -1) & (system.body_a != system.body_b))
+    _, f, c, tau = system.values(system.start())
+    lever = c[atoms] - point
+    moment = cross(lever, f[atoms]) + tau[atoms]
+    wrench = system.weight[atoms, None] * np.concatenate([f[atoms] * length, moment], axis=1)
+    by_row: dict[int, list[tuple[int, int, Array]]] = {}
+    ends = zip(system.body_a[atoms].tolist(), system.body_b[atoms].tolist(), wrench)
+    for row, atom in zip(system.row[atoms].tolist(), ends):
+        by_row.setdefault(row, []).append(atom)
+    return list(by_row.values())
+
+
+def _twists_of(system: System, pairs: Pairs, length: float) -> tuple[list[Array], Array]:
+    """Of each pair orthonormal twists (v / length, w) that its rows leave, all about one point, shape (6, n); and this point."""
+    rows, origin, own_length = relative_rows(system, pairs, system.start())
+    rank, _, vt, _, _ = batched_null_spaces(rows, pairs.row_pair, len(pairs))
+    left = vt.copy()
+    point: Array = origin.mean(axis=0)
+    arm = point - origin
+    left[:, :, :3] = (vt[:, :, :3] * own_length[:, None, None] + cross(vt[:, :, 3:], arm[:, None])) / length
+    twists = [left[i, r:].T for i, r in enumerate(rank.tolist())]
+    for _, alike_ones in alike(own.shape for own in twists):
+        members: list[int] = alike_ones.tolist()
+        for i, own in zip(members, np.linalg.qr(np.array([twists[i] for i in members]))[0]):
+            twists[i] = own
+    return twists, point
+
+
+def _common(a: Array, b: Array, tolerance: float) -> Array:
+    """What of one span, shape (6, n), lies in another one too."""
+    if not a.shape[1]:
+        return a
+    _, s, vt = np.linalg.svd(b.T @ a)
+    return a @ vt[: int(np.sum(s**2 > 1.0 - tolerance))].T
+
+
+def _with_all_else_held(assembly: Assembly, bodies: list[int]) -> int:
+    """Freedoms of finite motion that bodies have while all others stand still, those that hang on them too."""
+    system = assembly.system
     across = system.body_a != system.body_b  # inside a body all stands still, though a coupling counts from it
     own = across & (np.isin(system.body_a, bodies) | np.isin(system.body_b, bodies))
     rows = np.unique(system.row[own])
-    if len(leg) == 1:
-        there = across & np.isin(system.row, np.intersect1d(rows, of_block))
-        if len({*system.body_a[there].tolist(), *system.body_b[there].tolist()} - set(leg)) < 2:
-            return 0  # the end of a chain
-    solver = Solver(system.part(np.flatnonzero(np.isin(system.row, rows)), rows, bodies))
+    solver = Solver(system.part(np.flatnonzero(np.isin(system.row, rows)), rows, np.array(bodies)))
     start = solver.system.start()
     return sum(f.mobility for f in finite_freedoms(solver, block_freedoms(solver, start), start))
 
 
-def _moving(assembly: Assembly, part: int) -> BlockFreedom | None:
-    """A block's velocities that are motions, or None where they are not to be told from others.
+def _sharing(edges: list[int], twists: list[Array], tolerance: float) -> list[tuple[int, int]]:
+    """Pairs of a class of edges that share a twist, the nearest first.
 
-    At a singular pose they are looked at some steps away, where no part seems to move alone that cannot.
+    Hinges, of which a loop may have hundreds, share theirs only where it is the same, so they are sorted by it; the few
+    joints with more freedoms are compared with all.
     """
-    first, finite = assembly.freedoms[part], assembly.finite[part]
-    if finite.mobility == first.mobility:
-        return first
-    solver = Solver(assembly.solver.system.select(first.rows))
-    away = block_freedoms(solver, walked(solver, 0, first, assembly.start))[0]
-    return replace(away, rows=first.rows) if away.mobility == finite.mobility else None
-
-
-def _alone(freedom: BlockFreedom, leg: list[int]) -> int:
-    """How many of the motions are the leg's own."""
-    place = {int(b): k for k, b in enumerate(freedom.bodies)}
-    own = np.concatenate([freedom.basis[6 * place[b] : 6 * place[b] + 6] for b in leg])
-    # columns are orthonormal: what is wholly in the leg's rows has nothing left for all others
-    return int(np.sum(np.linalg.svd(own, compute_uv=False) ** 2 > 1.0 - _share(freedom)))
-
-
-def _share(freedom: BlockFreedom) -> float:
-    """``ALONE``, or what noise makes of it."""
-    return max(ALONE, freedom.noise**2)
-
-
-def _turning_in_a_loop(
-    assembly: Assembly, freedom: BlockFreedom, ring: list[int]
-) -> list[tuple[list[int], int]]:
-    """Neighbouring bodies of one closed loop that move as one and alone: the joints at their two ends share a twist.
-
-    ring: the bodies in the loop's order, its root left out.
-    """
-    still = np.zeros((6, freedom.mobility))
-    of_body = dict(zip(freedom.bodies.tolist(), freedom.about_one_point(assembly.relative)))
-    twists = [still, *(of_body[body] for body in ring), still]
-    alone = _share(freedom)
-    cut = max(MOVING, freedom.noise)
-    joints = spans([after - before for before, after in zip(twists, twists[1:])], cut)
-    found: list[tuple[list[int], int]] = []
-    known = np.zeros((6 * len(ring), 0))
-    for first, last in _sharing(joints, alone):
-        size = last - first
-        if size == len(ring):
-            continue  # all of the loop
-        u, s, _ = np.linalg.svd(joints[first].T @ joints[last])
-        shared = joints[first] @ u[:, : int(np.sum(s**2 > 1.0 - alone))]
-        motions = np.zeros((len(ring), 6, shared.shape[1]))
-        motions[first:last] = shared / np.sqrt(size)
-        new = motions.reshape(len(known), -1)
-        # a ram's spin is that of its tube and of its piston, if these turn
-        new = new - known @ (known.T @ new)
-        u, s, _ = np.linalg.svd(new, full_matrices=False)
-        if count := int(np.sum(s > NEW)):
-            known = np.concatenate([known, u[:, :count]], axis=1)
-            found.append((ring[first:last], count))
-        if known.shape[1] >= freedom.mobility:
-            break  # there are no others
-    return found
-
-
-def _sharing(joints: list[Array], alone: float) -> list[tuple[int, int]]:
-    """Numbers of the joints that share a twist with each other, the nearest neighbours first.
-
-    joints: orthonormal twists of each, shape (6, n).  alone: see ``_share``.  Hinges, of which a loop may have hundreds, share theirs only where
-    it is the same, so they are sorted by it; the few joints with more freedoms are compared with all.
-    """
+    joints = [twists[edge] for edge in edges]
     pairs: list[tuple[int, int]] = []
     plain = [i for i, own in enumerate(joints) if own.shape[1] == 1]
     key = np.abs(np.array([joints[i][:, 0] for i in plain]).reshape(-1, 6) @ ASLANT)
     order: list[int] = np.argsort(key, kind="stable").tolist()
     for at, here in enumerate(order):
         for there in order[at + 1 :]:
-            if key[there] - key[here] > NEAR * np.sqrt(alone / ALONE):
+            if key[there] - key[here] > NEAR * np.sqrt(tolerance / ALONE):
                 break
             pairs.append((plain[here], plain[there]))
     for i, own in enumerate(joints):
         if own.shape[1] > 1:
-            pairs += [
-                (i, j) for j, other in enumerate(joints) if other.shape[1] == 1 or other.shape[1] and j > i
-            ]
+            pairs += [(i, j) for j, other in enumerate(joints) if other.shape[1] == 1 or j > i]
     ordered = sorted((min(pair), max(pair)) for pair in pairs)
     sizes: dict[tuple[int, int], list[tuple[int, int]]] = {}
     for i, j in ordered:
         sizes.setdefault((joints[i].shape[1], joints[j].shape[1]), []).append((i, j))
     shared: list[tuple[int, int]] = []
-    for alike in sizes.values():
-        for at in range(0, len(alike), MOST):
-            some = alike[at : at + MOST]
+    for same in sizes.values():
+        for at in range(0, len(same), MOST):
+            some = same[at : at + MOST]
             a, b = (np.array([joints[pair[end]] for pair in some]) for end in (0, 1))
             largest = np.linalg.svd(np.swapaxes(a, 1, 2) @ b, compute_uv=False)[:, 0]
-            shared += [pair for pair, s in zip(some, largest.tolist()) if s**2 > 1.0 - alone]
-    return sorted(shared, key=lambda pair: (pair[1] - pair[0], pair[0]))
-
-
-def _ring(root: int, neighbours: dict[int, set[int]], bodies: list[int]) -> list[int]:
-    """The bodies in the order in which their loop joins them, from the root and back; empty where they make none."""
-    inside, before = set(bodies), root
-    ring: list[int] = []
-    body = min(neighbours[root] & inside, default=root)
-    while body != root and len(ring) < len(bodies):
-        ring.append(body)
-        before, body = body, next((n for n in sorted(neighbours[body]) if n != before), root)
-    return ring if body == root and len(ring) == len(bodies) else []
-
-
-def _legs(bodies: list[int], neighbours: dict[int, set[int]]) -> list[list[int]]:
-    """Chains of bodies with two neighbours each, as long as they go; other bodies by themselves."""
-    inside = set(bodies)
-    seen: set[int] = set()
-    legs: list[list[int]] = []
-    for body in bodies:
-        if body in seen:
-            continue
-        leg = [body]
-        seen.add(body)
-        if len(neighbours[body]) == 2:
-            for start in sorted(neighbours[body]):
-                following = start
-                while following in inside and following not in seen and len(neighbours[following]) == 2:
-                    seen.add(following)
-                    leg.append(following)
-                    following = next((n for n in sorted(neighbours[following]) if n not in seen), -1)
-        legs.append(leg)
-    return legs
+            shared += [pair for pair, s in zip(some, largest.tolist()) if s**2 > 1.0 - tolerance]
+    nearest = sorted(shared, key=lambda pair: (pair[1] - pair[0], pair[0]))
+    return [(edges[i], edges[j]) for i, j in nearest]

@@ -22,8 +22,7 @@ def scene_entry(analysis: Analysis) -> dict[str, Any]:
         "firstOrderMobility": analysis.first_order,
         # bodies that only a loop holds together are merged, and what joined them is then held more than once
         "redundant": max(analysis.redundant, sum(island.redundant for island in analysis.islands)),
-        # what a slack rope leaves idle is a matter of taste: it holds nothing, and yet stands between two parts
-        "idle": None if any(i.slack for i in analysis.islands) else sum(idle.count for idle in analysis.idle),
+        "idle": None if _has_loops_that_nothing_closes(analysis) else sum(idle.count for idle in analysis.idle),
         "closureGap": {"position": metres, "angle": degrees},
         "islands": [
             {"nodes": list(i.nodes), "mobility": i.mobility, "redundant": i.redundant, "loops": i.loops}
@@ -33,6 +32,13 @@ def scene_entry(analysis: Analysis) -> dict[str, Any]:
             {"node": f.node, "directions": f.translations, "axes": f.rotations} for f in analysis.freedoms
         ],
     }
+
+
+def _has_loops_that_nothing_closes(analysis: Analysis) -> bool:
+    """Whether a slack rope, or a closing joint whose rows the loop holds all, stands between two parts and holds nothing:
+    from the joints no one can tell that there is a loop, in which alone freedoms are idle."""
+    freed = any(not joint.locked and analysis.findings[joint.id].freed for joint in analysis.joints)
+    return freed or any(island.slack for island in analysis.islands)
 
 
 def document(analysis: Analysis) -> dict[str, Any]:

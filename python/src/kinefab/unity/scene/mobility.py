@@ -1,6 +1,6 @@
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 from .vectors import Vector3
 
@@ -36,13 +36,13 @@ class ClosureGap:
 class Mobility:
     """What the analysis found; see ``analysis.findings.result.Analysis``.
 
-    idle: None where a rope closes a loop, see ``analysis.findings.summary.scene_entry``.
+    idle: None where a rope, or a joint that holds nothing, closes a loop, see ``analysis.findings.summary.scene_entry``.
     """
 
     mobility: int
     firstOrderMobility: int
     redundant: int
-    idle: int | None
+    idle: int | None = field(default=None, kw_only=True)
     closureGap: ClosureGap
     islands: tuple[Island, ...]
     bodies: tuple[BodyFreedom, ...]

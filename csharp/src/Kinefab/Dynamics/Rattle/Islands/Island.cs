@@ -57,6 +57,7 @@ internal sealed class Island
     private const int HubRows = 6;
 
     // The pattern is built when it is first asked for, since Unity's solver, and an island that is only looked at for loops, do without.
+    private readonly Vector3d[] _inverseInertias;
     private readonly int[] _sizes;
     private readonly List<(int Node, int Side)>[] _touching;
     private BlockPattern? _pattern;
@@ -103,6 +104,7 @@ internal sealed class Island
         }
 
         HasKinematic = Array.IndexOf(IsStatic, false, movingBodies) >= 0;
+        _inverseInertias = inverseInertias;
         RotationSplittings = new RotationSplitting[movingBodies];
         for (int b = 0; b < movingBodies; b++)
         {
@@ -185,6 +187,22 @@ internal sealed class Island
 
     /// <summary>Whether some rows have no closed form in lanes.</summary>
     public bool HasAssembledRows { get; }
+
+    /// <summary>
+    /// The same as it is stepped in lanes, while none of its limits is reached or while hinges rest on them. Itself, where it has no rows that are not
+    /// in closed form; null, where it has others than those that have one there.
+    /// </summary>
+    /// <param name="holdsLimits">Whether hinges with limits have a row for the end that they rest on.</param>
+    public Island? InLanes(bool holdsLimits)
+    {
+        if (!HasAssembledRows)
+        {
+            return this;
+        }
+
+        RowBlock[] plain = Array.ConvertAll(Blocks, block => block.InLanes(Blocks, holdsLimits));
+        return ((IsInconsistent || Hubs.Length > 0) && Array.Exists(plain, block => block.HasAxisRow)) || Array.Exists(plain, block => block.IsAssembled || block.Rows == 0) ? null : new Island(Bodies, MovingBodies, plain, _inverseInertias) { Loops = Loops };
+    }
 
     /// <summary>Whether the other island is of the same build, so that both can share lanes.</summary>
     public bool HasShapeOf(Island other)

@@ -1,3 +1,4 @@
+using System;
 using System.Collections.Generic;
 using Kinefab.Joints;
 using Kinefab.Numerics;
@@ -22,6 +23,21 @@ internal enum AngularForm : byte
     All,
 
     /// <summary>One locked angle: the row is the one that <see cref="JointModel.Prepare"/> writes.</summary>
+    Prepared,
+}
+
+/// <summary>What is watched in lanes: limits, which have no row there but for a hinge that rests on one.</summary>
+internal enum WatchForm : byte
+{
+    None,
+
+    /// <summary>The turn of a hinge about X, which a drive asks for.</summary>
+    Turn,
+
+    /// <summary>The same with its two ends.</summary>
+    Twist,
+
+    /// <summary>Whatever <see cref="JointModel.PrepareForces"/> writes.</summary>
     Prepared,
 }
 
@@ -81,14 +97,29 @@ internal sealed class RowBlock
     /// <summary>Whether it is an anchor (all linear axes locked) with angular rows in closed form and nothing else, as a hinge is.</summary>
     public readonly bool IsPointJoint;
 
+    /// <summary>Of a block without its limits' rows: how to tell when they are reached.</summary>
+    public readonly WatchForm Watch;
+
+    /// <summary>Of a block in lanes: whether a hinge has a row about its axis, for a drive or for the end of its limits that it rests on.</summary>
+    public readonly bool HasAxisRow;
+
+    /// <summary>Whether that row is a drive's.</summary>
+    public readonly bool IsAxisDriven;
+
     /// <summary>For a coupling, which of Bodies are actor 0 and 1 of the joint of each of its coordinates.</summary>
-    public readonly int[] CouplingSides = System.Array.Empty<int>();
+    public readonly int[] CouplingSides = Array.Empty<int>();
 
     public RowBlock(JointModel joint, int index, int[] bodies)
+        : this(joint, index, bodies, false, false)
+    {
+    }
+
+    private RowBlock(JointModel joint, int index, int[] bodies, bool isInLanes, bool holdsLimits)
     {
         Joint = joint;
         Index = index;
         Bodies = bodies;
+        Coupled = Array.Empty<int>();
         var classes = new List<RowClass>();
         RowLayout layout = joint.Layout();
         LinearMask = layout.Locked & 0b111;
@@ -101,10 +132,16 @@ internal sealed class RowBlock
             7 => AngularForm.All,
             _ => AngularForm.Prepared,
         };
-        Drives = layout.Drives;
-        HasCone = layout.HasCone;
-        AngleLimits = layout.SwingLimits + layout.TwistLimits;
-        HasDistance = layout.HasDistance;
+        bool isHinge = layout.Limits == layout.TwistLimits && Angular == AngularForm.HingeX;
+        IsAxisDriven = isInLanes && layout.Drives == 1 && layout.AngularDrives == 1 && Angular == AngularForm.HingeX;
+        HasAxisRow = IsAxisDriven || (isInLanes && holdsLimits && isHinge && layout.Limits > 0 && layout.Drives == 0);
+        Drives = IsAxisDriven ? 0 : layout.Drives;
+        HasCone = !isInLanes && layout.HasCone;
+        AngleLimits = isInLanes ? 0 : layout.SwingLimits + layout.TwistLimits;
+        HasDistance = !isInLanes && layout.HasDistance;
+        Watch = !isInLanes ? WatchForm.None
+            : layout.Limits == 0 ? (IsAxisDriven ? WatchForm.Turn : WatchForm.None)
+            : isHinge ? WatchForm.Twist : WatchForm.Prepared;
 
         for (int axis = 0; axis < 3; axis++)
         {
@@ -131,6 +168,11 @@ internal sealed class RowBlock
             WorldLeverMask1 |= 2 << axis1;
         }
 
+        if (HasAxisRow)
+        {
+            classes.Add(RowClass.Angular);
+        }
+
         for (int i = 0; i < ScalarCount; i++)
         {
             bool isLinear = i < layout.LinearDrives || (HasDistance && i == ScalarCount - 1);
@@ -142,8 +184,17 @@ internal sealed class RowBlock
         IsPointJoint = LinearMask == 7 && !HasGeneralRows && Angular != AngularForm.Prepared;
     }
 
+    /// <summary>Of a coupling that has its row in lanes, the blocks of its hinges; else empty.</summary>
+    public readonly int[] Coupled;
+
     public RowBlock(CoordinateCoupling coupling, int index, int[] bodies, int[] sides)
+        : this(coupling, index, bodies, sides, Array.Empty<int>())
     {
+    }
+
+    private RowBlock(CoordinateCoupling coupling, int index, int[] bodies, int[] sides, int[] coupled)
+    {
+        Coupled = coupled;
         Coupling = coupling;
         Index = index;
         Bodies = bodies;
@@ -184,28 +235,46 @@ internal sealed class RowBlock
     public int Rows => Classes.Length;
 
     /// <summary>Whether some rows come from the joint's or coupling's own Prepare, one mechanism at a time.</summary>
-    public bool IsAssembled => Coupling != null || ScalarCount > 0 || Angular == AngularForm.Prepared;
+    public bool IsAssembled => (Coupling != null && Coupled.Length == 0) || ScalarCount > 0 || Angular == AngularForm.Prepared;
 
     /// <summary>Whether prepared rows are worth a second look at the end of the drift; a hinge's axis on the world stays.</summary>
     public bool HasMovingRows => Angular == AngularForm.Prepared || Limits > 0 || (Drives > 0 && !(Joint is RevoluteJoint && Joint.Body0 == JointModel.World));
 
+    /// <summary>The block as it stands in lanes: without the rows of its limits, a hinge with one about its axis; a coupling of hinges with the blocks of these.</summary>
+    /// <param name="blocks">Of its island.</param>
+    /// <param name="holdsLimits">Whether a hinge with limits has a row for the end that it rests on.</param>
+    public RowBlock InLanes(RowBlock[] blocks, bool holdsLimits)
+    {
+        if (Coupling is null)
+        {
+            return ScalarCount == 0 ? this : new RowBlock(Joint!, Index, Bodies, true, holdsLimits);
+        }
+
+        int[] coupled = Array.ConvertAll(
+            Coupling.Coordinates, c => c.Axis == CoordinateAxis.AngularX ? Array.FindIndex(blocks, block => block.Joint == c.Joint && block.Angular == AngularForm.HingeX) : -1);
+        return Array.IndexOf(coupled, -1) >= 0 ? this : new RowBlock(Coupling, Index, Bodies, CouplingSides, coupled);
+    }
+
     /// <summary>Whether the other block has the same rows between the same bodies.</summary>
     public bool HasShapeOf(RowBlock other)
     {
-        if (Bodies.Length != other.Bodies.Length || LinearMask != other.LinearMask || Angular != other.Angular
-            || IsAssembled || other.IsAssembled)
+        if (Bodies.Length != other.Bodies.Length || LinearMask != other.LinearMask || Angular != other.Angular || Watch != other.Watch || HasAxisRow != other.HasAxisRow || IsAxisDriven != other.IsAxisDriven
+            || !HasSame(CouplingSides, other.CouplingSides) || !HasSame(Coupled, other.Coupled) || (Coupling is null) != (other.Coupling is null) || Drives != other.Drives || HasCone != other.HasCone || AngleLimits != other.AngleLimits
+            || HasDistance != other.HasDistance || HasMovingRows != other.HasMovingRows)
         {
             return false;
         }
 
-        for (int i = 0; i < Bodies.Length; i++)
+        for (int i = 0; i < Classes.Length; i++)
         {
-            if (Bodies[i] != other.Bodies[i])
+            if (Classes[i] != other.Classes[i])
             {
                 return false;
             }
         }
 
-        return true;
+        return HasSame(Bodies, other.Bodies);
     }
+
+    private static bool HasSame(int[] a, int[] b) => a.AsSpan().SequenceEqual(b);
 }

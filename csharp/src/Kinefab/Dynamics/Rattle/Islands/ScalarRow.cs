@@ -53,6 +53,9 @@ internal enum ProjectedAs : byte
 /// </summary>
 internal struct ScalarRow
 {
+    /// <summary>A limit that is passed by less at a step's start is the drift's to close, m or rad; one by more, that closing the pose left there, stays.</summary>
+    public const double MostClosedByDrift = 1e-6;
+
     public RowKind Kind;
     public RowState State;
 
@@ -190,17 +193,12 @@ internal struct ScalarRow
     /// <param name="isImplicit">Whether the whole impulse acts before the drift (implicit Euler).</param>
     public void SetSpring(double h, double response, bool isImplicit)
     {
-        double perMass = Built.Has(RowFlags.AccelerationSpring) && response > 0 ? 1 / response : 1;
-        double k = Built.Stiffness * perMass;
-        double d = Built.Damping * perMass;
-
-        // Half the step's stiffness and damping against the inertia that they move, at most: where the step is too long to
-        // follow the spring, its share goes from the midpoint's towards implicit Euler's, so that it decays and does not ring.
-        double z = h * (d + h * k) * response;
-        Theta = isImplicit ? 1 : z < 1 ? 0.5 : 1 - 0.5 / z;
-        CorrectionGain = isImplicit || z <= 1 ? 0 : (z * z - 1) / response;
-        ImplicitDamping = h * (d + Theta * h * k);
-        RestImpulse = h * (d * Built.VelocityTarget - k * StartError);
+        var gains = new DriveModel { Stiffness = Built.Stiffness, Damping = Built.Damping, IsAcceleration = Built.Has(RowFlags.AccelerationSpring) };
+        var law = new SpringLaw(gains, Built.VelocityTarget, StartError, h, response, isImplicit);
+        Theta = law.Theta;
+        CorrectionGain = law.CorrectionGain;
+        ImplicitDamping = law.ImplicitDamping;
+        RestImpulse = law.RestImpulse;
     }
 }
 

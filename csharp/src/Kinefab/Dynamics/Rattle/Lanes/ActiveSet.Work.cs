@@ -69,7 +69,7 @@ internal sealed partial class ActiveSet<V>
             if (scalar.IsActive && scalar.Built.Has(RowFlags.Spring) && scalar.Built.Stiffness > 0 && !(scalar.Built.Has(RowFlags.Limit) && c >= 0) && HasPotential(scalar))
             {
                 double k = Stiffness(scalar);
-                bool isForce = _batch.Shape.Blocks[scalar.Block].Joint!.DriveLimitsAreForces || !scalar.Built.Has(RowFlags.HasDriveLimit);
+                bool isForce = _batch.Models[scalar.Block]!.DriveLimitsAreForces || !scalar.Built.Has(RowFlags.HasDriveLimit);
                 double most = (c < 0 ? scalar.Built.Maximum : -scalar.Built.Minimum) / (isForce ? 1 : dt);
                 double yield = Math.Min(Math.Abs(c), most / Math.Max(k, LeastResponse));
                 sum += k * yield * (Math.Abs(c) - yield / 2);
@@ -118,6 +118,6 @@ internal sealed partial class ActiveSet<V>
     // Whether the force is one in C alone and C changes as the row moves: not where a damper drives, nor of twist and swing
     // drives, whose C is a sine of the angle by which the row turns, so that a force at its limit works by more than C says.
     private bool HasPotential(in ScalarRow scalar) =>
-        scalar.Built.Hint == SolveHint.SlerpSpring ? ((D6Joint)_batch.Shape.Blocks[scalar.Block].Joint!).DriveAngularVelocity == Vector3d.Zero
-        : scalar.Built.VelocityTarget == 0 && (!scalar.Built.Has(RowFlags.Angular | RowFlags.Drive) || _batch.Shape.Blocks[scalar.Block].Joint is RevoluteJoint);
+        scalar.Built.Hint == SolveHint.SlerpSpring ? ((D6Joint)_batch.Models[scalar.Block]!).DriveAngularVelocity == Vector3d.Zero
+        : scalar.Built.VelocityTarget == 0 && (!scalar.Built.Has(RowFlags.Angular | RowFlags.Drive) || _batch.Models[scalar.Block] is RevoluteJoint);
 }

@@ -27,9 +27,6 @@ internal sealed partial class ActiveSet<V>
     /// <summary>A limit this many tolerances away counts as reached.</summary>
     public const double Reach = 10;
 
-    /// <summary>A limit that is passed by less at a step's start is the drift's to close, m or rad; one by more, that closing the pose left there, stays.</summary>
-    public const double MostClosedByDrift = 1e-6;
-
     private readonly LaneRecords<V> _batch;
     private readonly ScalarRows _scalars;
     private readonly ScalarRow[] _rows;
@@ -81,7 +78,7 @@ internal sealed partial class ActiveSet<V>
             bool isReached = scalar.StartError <= Reach * tolerance && !scalar.IsLeft && !IsThrownBack(scalar);
             scalar.IsApart = LocatesEvents && (!scalar.IsActive || (scalar.Built.Has(RowFlags.Limit) && !isReached));
             scalar.HasDrawn = false;
-            scalar.Allowed = scalar.Kind == RowKind.Limit && scalar.StartError < -MostClosedByDrift ? scalar.StartError : 0;
+            scalar.Allowed = scalar.Kind == RowKind.Limit && scalar.StartError < -ScalarRow.MostClosedByDrift ? scalar.StartError : 0;
             if (scalar.Kind == RowKind.None || scalar.IsApart)
             {
                 scalar.State = RowState.AtBound;
@@ -91,7 +88,7 @@ internal sealed partial class ActiveSet<V>
             }
 
             double response = Response(scalar);
-            scalar.SetBounds(h, _batch.Shape.Blocks[scalar.Block].Joint!.DriveLimitsAreForces);
+            scalar.SetBounds(h, _batch.Models[scalar.Block]!.DriveLimitsAreForces);
             if (scalar.Kind == RowKind.Motion)
             {
                 scalar.SetMotion(h, response);
@@ -200,7 +197,7 @@ internal sealed partial class ActiveSet<V>
         {
             ref ScalarRow scalar = ref _rows[i];
             bool isLimit = scalar.IsActive && scalar.Built.Has(RowFlags.Limit) && !scalar.Built.Has(RowFlags.Spring);
-            if (isLimit && scalar.Built.GeometricError < scalar.Allowed - MostClosedByDrift)
+            if (isLimit && scalar.Built.GeometricError < scalar.Allowed - ScalarRow.MostClosedByDrift)
             {
                 return true;
             }
@@ -252,7 +249,9 @@ internal sealed partial class ActiveSet<V>
         {
             ref ScalarRow scalar = ref _rows[i];
             bool isThere = scalar.IsActive && scalar.Kind != RowKind.None && (isAll || scalar.State == RowState.Free);
-            AssembledRows<V>.Write(_batch, scalar.Block, scalar.BlockRow, scalar.Built, isThere ? 1 : 0);
+
+            // Not 0 times a row that is not there: what a failed attempt left of it may be no number.
+            AssembledRows<V>.Write(_batch, scalar.Block, scalar.BlockRow, isThere ? scalar.Built : default, 1);
         }
     }
 

@@ -18,7 +18,7 @@ internal static class AssembledRows<V>
         int row = batch.Shape.Pattern.Rows[n];
         if (block.Coupling != null)
         {
-            batch.Work.Error[row] = Couple(batch, block);
+            batch.Work.Error[row] = Couple(batch, n, block);
             return;
         }
 
@@ -28,7 +28,7 @@ internal static class AssembledRows<V>
         }
 
         ConstraintRow[] rows = batch.Work.Rows;
-        int count = Prepare(batch, block, rows);
+        int count = Prepare(batch, n, block, rows);
         var slots = new RowSlots(block);
         batch.Scalars?.ClearEndRows(n);
         for (int i = 0; i < count; i++)
@@ -68,7 +68,7 @@ internal static class AssembledRows<V>
     {
         RowBlock block = batch.Shape.Blocks[n];
         ConstraintRow[] rows = batch.Work.Rows;
-        int count = Prepare(batch, block, rows);
+        int count = Prepare(batch, n, block, rows);
         var slots = new RowSlots(block);
         batch.Scalars?.Clear(n);
         for (int i = 0; i < count; i++)
@@ -95,39 +95,41 @@ internal static class AssembledRows<V>
     /// <summary>Notes the angles that were reached: those of limits, springs and couplings are counted on from the last finished part of a step.</summary>
     public static void FinishAngles(LaneRecords<V> batch)
     {
-        foreach (RowBlock block in batch.Shape.Blocks)
+        for (int n = 0; n < batch.Shape.Blocks.Length; n++)
         {
-            if (block.Coupling != null)
+            RowBlock block = batch.Shape.Blocks[n];
+            CoordinateCoupling? coupling = batch.Couplings[n];
+            if (coupling != null)
             {
-                Couple(batch, block);
-                for (int i = 0; i < block.Coupling.Last.Length; i++)
+                Couple(batch, n, block);
+                for (int i = 0; i < coupling.Last.Length; i++)
                 {
-                    block.Coupling.Last[i] = block.Coupling.Rows[i].GeometricError;
+                    coupling.Last[i] = coupling.Rows[i].GeometricError;
                 }
             }
             else if (block.ScalarCount > 0)
             {
-                block.Joint!.FinishTwist(PoseOf(batch, block.Bodies[0]), PoseOf(batch, block.Bodies[1]));
+                batch.Models[n]!.FinishTwist(PoseOf(batch, block.Bodies[0]), PoseOf(batch, block.Bodies[1]));
             }
         }
     }
 
-    private static int Prepare(LaneRecords<V> batch, RowBlock block, ConstraintRow[] rows)
+    private static int Prepare(LaneRecords<V> batch, int n, RowBlock block, ConstraintRow[] rows)
     {
         Pose pose0 = PoseOf(batch, block.Bodies[0]);
         Pose pose1 = PoseOf(batch, block.Bodies[1]);
         return block.Angular == AngularForm.Prepared
-            ? block.Joint!.Prepare(pose0, pose1, rows)
-            : block.Joint!.PrepareForces(pose0, pose1, rows);
+            ? batch.Models[n]!.Prepare(pose0, pose1, rows)
+            : batch.Models[n]!.PrepareForces(pose0, pose1, rows);
     }
 
     private static bool IsLoneAngle(RowBlock block, in ConstraintRow row) =>
         block.Angular == AngularForm.Prepared && row.Hint == SolveHint.Equality && row.Has(RowFlags.Angular);
 
-    private static double Couple(LaneRecords<V> batch, RowBlock block)
+    private static double Couple(LaneRecords<V> batch, int n, RowBlock block)
     {
         int[] sides = block.CouplingSides;
-        CoordinateCoupling coupling = block.Coupling!;
+        CoordinateCoupling coupling = batch.Couplings[n]!;
         double sum = 0;
         for (int i = 0; i < coupling.Coordinates.Length; i++)
         {
@@ -140,11 +142,11 @@ internal static class AssembledRows<V>
     // J = sum of factor times row, added up on the bodies that several joints touch.
     private static void BuildCoupling(LaneRecords<V> batch, int n, RowBlock block)
     {
-        Couple(batch, block);
+        Couple(batch, n, block);
         int first = batch.Row(n, 0, 0);
         Array.Clear(batch.Linear, first, 3 * block.Bodies.Length);
         Array.Clear(batch.Angular, first, 3 * block.Bodies.Length);
-        CoordinateCoupling coupling = block.Coupling!;
+        CoordinateCoupling coupling = batch.Couplings[n]!;
         for (int i = 0; i < coupling.Rows.Length; i++)
         {
             Add(batch, n, block.CouplingSides[2 * i], coupling.Rows[i].Linear0, coupling.Rows[i].Angular0, coupling.Factors[i]);
@@ -168,13 +170,7 @@ internal static class AssembledRows<V>
         LaneTransfer<V>.Write(batch.Angular, o, angular * factor);
     }
 
-    private static Pose PoseOf(LaneRecords<V> batch, int body)
-    {
-        double[] a = batch.Bodies;
-        int x = LaneRecords<V>.Body(body, BodyLanes.EndX);
-        int q = LaneRecords<V>.Body(body, BodyLanes.EndQ);
-        return new Pose(new Vector3d(a[x], a[x + 1], a[x + 2]), new Quaterniond(a[q], a[q + 1], a[q + 2], a[q + 3]));
-    }
+    private static Pose PoseOf(LaneRecords<V> batch, int body) => LaneTransfer<V>.ReadPose(batch, body, 0);
 }
 
 /// <summary>

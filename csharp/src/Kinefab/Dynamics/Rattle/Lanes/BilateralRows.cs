@@ -42,6 +42,10 @@ internal static class BilateralRows<V>
             {
                 AssembledRows<V>.Evaluate(batch, n);
             }
+            else if (block.Coupling != null)
+            {
+                CoupledTurns<V>.Evaluate(batch, n);
+            }
 
             if (block.Joint != null)
             {
@@ -93,6 +97,10 @@ internal static class BilateralRows<V>
             if (blocks[n].IsAssembled)
             {
                 AssembledRows<V>.Build(batch, n);
+            }
+            else if (blocks[n].Coupling != null)
+            {
+                CoupledTurns<V>.Build(batch, n);
             }
         }
     }

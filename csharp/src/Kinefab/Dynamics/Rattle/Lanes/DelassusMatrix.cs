@@ -105,10 +105,17 @@ internal static class DelassusMatrix<V>
         }
     }
 
+    /// <summary>Keeps the matrix as it is.</summary>
+    public static void Keep(LaneRecords<V> batch) => Array.Copy(batch.Matrix, batch.Assembled, batch.Assembled.Length);
+
     /// <summary>Replaces the matrix by its factor, after all that stands on its diagonal was added.</summary>
     public static void Factor(LaneRecords<V> batch)
     {
-        Array.Copy(batch.Matrix, batch.Assembled, batch.Assembled.Length);
+        if (batch.Shape.Hubs.Length > 0)
+        {
+            Keep(batch);
+        }
+
         BlockCholesky<V>.Factor(batch.Shape.Pattern, batch.Matrix);
     }
 

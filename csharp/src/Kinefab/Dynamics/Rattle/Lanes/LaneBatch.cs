@@ -17,6 +17,7 @@ internal sealed class LaneBatch<V> : LaneRecords<V>
             LoopConsistency.Rounded => DelassusMatrix<V>.RoundedShare,
             _ => DelassusMatrix<V>.AngularShare,
         };
+        Axes = AxisRows<V>.Of(this);
         if (Scalars != null)
         {
             ActiveSet = new ActiveSet<V>(this, Scalars);
@@ -25,6 +26,9 @@ internal sealed class LaneBatch<V> : LaneRecords<V>
 
     /// <summary>Decides which scalar rows act; null without any.</summary>
     public ActiveSet<V>? ActiveSet { get; }
+
+    /// <summary>The rows of drives and limits about hinges' axes; null without any.</summary>
+    public AxisRows<V>? Axes { get; }
 
     /// <summary>Share added to the diagonal of angular rows in RATTLE steps.</summary>
     public double AngularShare { get; }

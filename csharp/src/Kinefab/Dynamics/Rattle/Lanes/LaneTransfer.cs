@@ -46,6 +46,8 @@ internal static class LaneTransfer<V>
         for (int n = 0; n < island.Blocks.Length; n++)
         {
             JointModel? joint = island.Blocks[n].Joint;
+            batch.Models[n * Lane<V>.Width + lane] = joint;
+            batch.Couplings[n * Lane<V>.Width + lane] = island.Blocks[n].Coupling;
             if (joint != null)
             {
                 batch.JointMembers[n * Lane<V>.Width + lane] = island.Blocks[n].Index;
@@ -124,7 +126,7 @@ internal static class LaneTransfer<V>
         }
     }
 
-    /// <summary>Poses and velocities of the first lanes back to the world's bodies, after <see cref="EndStep"/>.</summary>
+    /// <summary>Poses and velocities of the first lanes that are active back to the world's bodies, after <see cref="EndStep"/>.</summary>
     public static void Scatter(LaneRecords<V> batch, int lanes, MultibodySystem mechanism)
     {
         Bodies bodies = mechanism.Bodies;
@@ -134,6 +136,11 @@ internal static class LaneTransfer<V>
         {
             for (int lane = 0; lane < lanes; lane++)
             {
+                if (batch.Work.Active[lane] == 0)
+                {
+                    continue;
+                }
+
                 int body = batch.Members[b * w + lane];
                 int o = LaneRecords<V>.Body(b, 0) + lane;
                 bodies.Poses[body] = new Pose(ReadVector(a, o + BodyLanes.EndX * w), ReadQuaternion(a, o + BodyLanes.EndQ * w));
@@ -143,23 +150,87 @@ internal static class LaneTransfer<V>
         }
     }
 
-    /// <summary>A lane's state at the end of a step, and the guess it leaves for the next, into another batch's lane.</summary>
-    public static void CopyLane(LaneRecords<V> batch, int lane, LaneRecords<ScalarLane> from)
+    /// <summary>What <see cref="Gather"/> and <see cref="BeginStep"/> have found, into a batch of the same bodies.</summary>
+    public static void CopyStart(LaneRecords<V> from, LaneRecords<V> to)
     {
-        for (int b = 0; b < batch.Shape.MovingBodies; b++)
+        for (int b = 0; b < from.Shape.Bodies.Length; b++)
+        {
+            Copy(BodyLanes.X, BodyLanes.EndX - BodyLanes.X);
+            Copy(BodyLanes.W, BodyLanes.R - BodyLanes.W);
+            Copy(BodyLanes.Acceleration, BodyLanes.Stiffness - BodyLanes.Acceleration);
+
+            void Copy(int slot, int count) => Array.Copy(from.Bodies, LaneRecords<V>.Body(b, slot), to.Bodies, LaneRecords<V>.Body(b, slot), count * Lane<V>.Width);
+        }
+    }
+
+    /// <summary>A lane's state at the end of a step, and the guess it leaves for the next, into another batch's lane, of the rows that both have.</summary>
+    public static void CopyLane<S>(LaneRecords<V> batch, int lane, LaneRecords<S> from, int fromLane)
+        where S : struct, ILane<S>
+    {
+        int w = Lane<V>.Width;
+        int s = Lane<S>.Width;
+        for (int b = 0; b < batch.Shape.Bodies.Length; b++)
         {
             int to = LaneRecords<V>.Body(b, 0) + lane;
-            int source = LaneRecords<ScalarLane>.Body(b, 0);
+            int source = LaneRecords<S>.Body(b, 0) + fromLane;
             for (int i = 0; i < BodyLanes.InverseMass; i++)
             {
-                batch.Bodies[to + i * Lane<V>.Width] = from.Bodies[source + i];
+                batch.Bodies[to + i * w] = from.Bodies[source + i * s];
+            }
+
+            batch.Bodies[to + BodyLanes.Stiffness * w] = from.Bodies[source + BodyLanes.Stiffness * s];
+        }
+
+        for (int n = 0; n < batch.Shape.Blocks.Length; n++)
+        {
+            int row = from.Shape.Pattern.Rows[n] * s + fromLane;
+            int at = batch.Shape.Pattern.Rows[n] * w + lane;
+            for (int i = 0; i < batch.Shape.Blocks[n].BilateralCount; i++, at += w, row += s)
+            {
+                batch.VelocityImpulses[at] = from.VelocityImpulses[row];
+                batch.Work.TotalImpulses[at] = from.Work.TotalImpulses[row];
+            }
+        }
+    }
+
+    /// <summary>The same of all lanes, into a batch of the same islands.</summary>
+    public static void CopyLanes(LaneRecords<V> batch, LaneRecords<V> from)
+    {
+        int w = Lane<V>.Width;
+        for (int b = 0; b < batch.Shape.Bodies.Length; b++)
+        {
+            int o = LaneRecords<V>.Body(b, 0);
+            Array.Copy(from.Bodies, o, batch.Bodies, o, BodyLanes.InverseMass * w);
+            Lane<V>.Load(from.Bodies, o, BodyLanes.Stiffness).Store(batch.Bodies, o, BodyLanes.Stiffness);
+        }
+
+        for (int n = 0; n < batch.Shape.Blocks.Length; n++)
+        {
+            int row = from.Shape.Pattern.Rows[n] * w;
+            int at = batch.Shape.Pattern.Rows[n] * w;
+            int count = batch.Shape.Blocks[n].BilateralCount * w;
+            Array.Copy(from.VelocityImpulses, row, batch.VelocityImpulses, at, count);
+            Array.Copy(from.Work.TotalImpulses, row, batch.Work.TotalImpulses, at, count);
+        }
+    }
+
+    /// <summary>The guess that a lane's last step has left for the bilateral rows, and the stiffness that it found, into another batch.</summary>
+    public static void CopyGuess<S>(LaneRecords<V> batch, int lane, LaneRecords<S> to, int toLane)
+        where S : struct, ILane<S>
+    {
+        for (int n = 0; n < batch.Shape.Blocks.Length; n++)
+        {
+            int row = to.Shape.Pattern.Rows[n] * Lane<S>.Width + toLane;
+            int at = batch.Shape.Pattern.Rows[n] * Lane<V>.Width + lane;
+            for (int i = 0; i < batch.Shape.Blocks[n].BilateralCount; i++, at += Lane<V>.Width, row += Lane<S>.Width)
+            {
+                to.VelocityImpulses[row] = batch.VelocityImpulses[at];
             }
         }
 
-        for (int i = 0; i < from.VelocityImpulses.Length; i++)
+        for (int body = 0; body < to.Shape.MovingBodies; body++)
         {
-            batch.VelocityImpulses[i * Lane<V>.Width + lane] = from.VelocityImpulses[i];
-            batch.Work.TotalImpulses[i * Lane<V>.Width + lane] = from.Work.TotalImpulses[i];
+            to.Bodies[LaneRecords<S>.Body(body, BodyLanes.Stiffness) + toLane] = batch.Bodies[LaneRecords<V>.Body(body, BodyLanes.Stiffness) + lane];
         }
     }
 
@@ -293,6 +364,10 @@ internal static class LaneTransfer<V>
         Write(a, index + 6 * Lane<V>.Width, frame.Rotation * Vector3d.UnitY);
         Write(a, index + 9 * Lane<V>.Width, frame.Rotation * Vector3d.UnitZ);
     }
+
+    /// <summary>A lane's pose of a body at the end of the drift.</summary>
+    public static Pose ReadPose(LaneRecords<V> batch, int body, int lane) => new(
+        ReadVector(batch.Bodies, LaneRecords<V>.Body(body, BodyLanes.EndX) + lane), ReadQuaternion(batch.Bodies, LaneRecords<V>.Body(body, BodyLanes.EndQ) + lane));
 
     /// <summary>Writes a lane's numbers; the index is that of the first of them.</summary>
     [MethodImpl(MethodImplOptions.AggressiveInlining)]

@@ -13,7 +13,7 @@ namespace Kinefab.Dynamics.Rattle;
 internal sealed class PositionProjection
 {
     /// <summary>A pose less open than this is the drift's to close, m or rad.</summary>
-    public const double MostOpen = ActiveSet<ScalarLane>.MostClosedByDrift;
+    public const double MostOpen = ScalarRow.MostClosedByDrift;
 
     private const int MaxIterations = 300;
 

@@ -35,12 +35,17 @@ internal static class RattleStep<V>
 
         batch.CompliantStep = batch.Shape.IsInconsistent ? h : 0;
         batch.ActiveSet?.Begin(h, tolerance, false);
+        batch.Axes?.WriteRows();
         Kick(batch, h / 2);
         Array.Copy(batch.VelocityImpulses, batch.Work.PositionImpulses, batch.VelocityImpulses.Length);
         Impulses<V>.Apply(batch, batch.Work.PositionImpulses);
         if (batch.ActiveSet != null)
         {
             FactorForDrift(batch, batch.ActiveSet);
+        }
+        else if (batch.Axes != null)
+        {
+            FactorForDrift(batch, batch.Axes);
         }
         else if (batch.Shape.IsInconsistent)
         {
@@ -56,6 +61,7 @@ internal static class RattleStep<V>
             FreeMotion<V>.Drift(batch, h);
             BilateralRows<V>.Evaluate(batch);
             batch.ActiveSet?.Evaluate(h);
+            batch.Axes?.Evaluate(h);
             BilateralRows<V>.MeasureErrors(batch);
             bool isDone = true;
             for (int lane = 0; lane < w; lane++)
@@ -115,7 +121,7 @@ internal static class RattleStep<V>
         BilateralRows<V>.Build(batch);
         if (batch.Scalars == null)
         {
-            Factor(batch, true);
+            Factor(batch, batch.Axes == null);
         }
         else
         {
@@ -180,8 +186,35 @@ internal static class RattleStep<V>
     public static void Factor(LaneBatch<V> batch, bool isDrift)
     {
         batch.ActiveSet?.WriteRows(false);
+        batch.Axes?.WriteRows();
         DelassusMatrix<V>.Assemble(batch, batch.Shape.IsInconsistent && !isDrift ? DelassusMatrix<V>.UnconstrainedShare : batch.AngularShare);
         batch.ActiveSet?.AddToDiagonal(isDrift);
+        if (batch.Axes != null && batch.Axes.HasSprings())
+        {
+            DelassusMatrix<V>.Keep(batch);
+        }
+
+        batch.Axes?.AddToDiagonal(isDrift);
+
+        DelassusMatrix<V>.Factor(batch);
+    }
+
+    // The same of lanes; where springs act the matrix is the projection's but for what they have on the diagonal.
+    private static void FactorForDrift(LaneBatch<V> batch, AxisRows<V> axes)
+    {
+        if (axes.IsFactoredForDrift())
+        {
+            return;
+        }
+
+        if (!axes.IsKeptForDrift())
+        {
+            Factor(batch, true);
+            return;
+        }
+
+        Array.Copy(batch.Assembled, batch.Matrix, batch.Matrix.Length);
+        axes.AddToDiagonal(true);
         DelassusMatrix<V>.Factor(batch);
     }
 

@@ -8,7 +8,7 @@ namespace Kinefab.Dynamics.Rattle;
 internal static class Reactions<V>
     where V : struct, ILane<V>
 {
-    /// <summary>Writes the mechanism's reactions of the joints of a batch's islands; marks those that broke.</summary>
+    /// <summary>Writes the mechanism's reactions of the joints of a batch's islands that are active; marks those that broke.</summary>
     /// <param name="batch">Built at the end pose, with the step's impulses in Total.</param>
     /// <param name="count">Lanes with an island of their own.</param>
     /// <param name="mechanism">Where to.</param>
@@ -26,12 +26,22 @@ internal static class Reactions<V>
             Sum(batch, n, block, 1 / dt);
             for (int lane = 0; lane < count; lane++)
             {
+                if (batch.Work.Active[lane] == 0)
+                {
+                    continue;
+                }
+
                 int index = batch.JointMembers[n * Lane<V>.Width + lane];
                 Vector3d force = LaneTransfer<V>.ReadVector(batch.Work.Reaction, lane);
                 Vector3d torque = LaneTransfer<V>.ReadVector(batch.Work.Reaction, 3 * Lane<V>.Width + lane);
                 if (batch.ActiveSet != null)
                 {
                     AddLimits(batch, batch.ActiveSet, n, 1 / dt, ref force, ref torque);
+                }
+                else if (batch.Axes != null)
+                {
+                    double impulse = batch.Axes.LimitImpulse(n, lane);
+                    torque += impulse == 0 ? Vector3d.Zero : LaneTransfer<V>.ReadVector(batch.Joints, LaneBatch<V>.Joint(n, LaneBatch<V>.WorldFrame(1) + 3) + lane) * (impulse / dt);
                 }
 
                 // The anchors of a slide stand apart: it is the one in actor 1 that counts. Those of other joints meet.

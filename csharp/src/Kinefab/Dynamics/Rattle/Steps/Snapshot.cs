@@ -1,4 +1,5 @@
 using System;
+using Kinefab.Joints;
 using Kinefab.Numerics;
 
 namespace Kinefab.Dynamics.Rattle;
@@ -36,16 +37,17 @@ internal sealed class Snapshot
         Array.Copy(batch.Work.TotalImpulses, _total, _total.Length);
         batch.Scalars?.Save(_scalars);
         int at = 0;
-        foreach (RowBlock block in batch.Shape.Blocks)
+        for (int n = 0; n < batch.Models.Length; n++)
         {
-            if (block.Coupling != null)
+            CoordinateCoupling? coupling = batch.Couplings[n];
+            if (coupling != null)
             {
-                block.Coupling.Last.CopyTo(_angles, at);
-                at += block.Coupling.Last.Length;
+                coupling.Last.CopyTo(_angles, at);
+                at += coupling.Last.Length;
             }
             else
             {
-                _angles[at++] = block.Joint!.LastTwist;
+                _angles[at++] = batch.Models[n]!.LastTwist;
             }
         }
     }
@@ -56,16 +58,17 @@ internal sealed class Snapshot
         Array.Copy(_half, batch.VelocityImpulses, _half.Length);
         Array.Copy(_total, batch.Work.TotalImpulses, _total.Length);
         int at = 0;
-        foreach (RowBlock block in batch.Shape.Blocks)
+        for (int n = 0; n < batch.Models.Length; n++)
         {
-            if (block.Coupling != null)
+            CoordinateCoupling? coupling = batch.Couplings[n];
+            if (coupling != null)
             {
-                Array.Copy(_angles, at, block.Coupling.Last, 0, block.Coupling.Last.Length);
-                at += block.Coupling.Last.Length;
+                Array.Copy(_angles, at, coupling.Last, 0, coupling.Last.Length);
+                at += coupling.Last.Length;
             }
             else
             {
-                block.Joint!.LastTwist = _angles[at++];
+                batch.Models[n]!.LastTwist = _angles[at++];
             }
         }
 

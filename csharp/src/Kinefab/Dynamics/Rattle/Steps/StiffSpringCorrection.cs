@@ -14,34 +14,37 @@ internal sealed class StiffSpringCorrection
     // Of the solve, since the matrix's compliance leaves rows speed, see VelocityProjection.
     private const int Passes = 3;
 
-    private readonly LaneBatch<ScalarLane> _batch;
     private readonly Bodies _bodies;
 
-    // Of each moving body, without the answer.
+    // The moving ones, in the world.
+    private readonly int[] _members;
+
+    // Of each moving body, without the answer, and as it is shown.
     private readonly Vector3d[] _linear;
     private readonly Vector3d[] _angular;
+    private readonly Vector3d[] _shownLinear;
+    private readonly Vector3d[] _shownAngular;
     private bool _isApplied;
 
-    /// <param name="batch">Of an island with scalar rows.</param>
+    /// <param name="island">One with scalar rows.</param>
     /// <param name="bodies">The world's.</param>
-    public StiffSpringCorrection(LaneBatch<ScalarLane> batch, Bodies bodies)
+    public StiffSpringCorrection(Island island, Bodies bodies)
     {
-        _batch = batch;
         _bodies = bodies;
-        _linear = new Vector3d[batch.Shape.MovingBodies];
-        _angular = new Vector3d[batch.Shape.MovingBodies];
+        _members = island.Bodies;
+        _linear = new Vector3d[island.MovingBodies];
+        _angular = new Vector3d[island.MovingBodies];
+        _shownLinear = new Vector3d[island.MovingBodies];
+        _shownAngular = new Vector3d[island.MovingBodies];
     }
 
     /// <summary>Before a step is loaded. Velocities that were written since are those of the program that wrote them.</summary>
     public void Undo()
     {
-        double[] a = _batch.Bodies;
         for (int body = 0; body < _linear.Length && _isApplied; body++)
         {
-            int o = LaneBatch<ScalarLane>.Body(body, 0);
-            int member = _batch.Members[body];
-            if (_bodies.LinearVelocities[member] == LaneTransfer<ScalarLane>.ReadVector(a, o + BodyLanes.V)
-                && _bodies.AngularVelocities[member] == LaneTransfer<ScalarLane>.ReadVector(a, o + BodyLanes.W))
+            int member = _members[body];
+            if (_bodies.LinearVelocities[member] == _shownLinear[body] && _bodies.AngularVelocities[member] == _shownAngular[body])
             {
                 _bodies.LinearVelocities[member] = _linear[body];
                 _bodies.AngularVelocities[member] = _angular[body];
@@ -56,67 +59,75 @@ internal sealed class StiffSpringCorrection
     {
         tape.Array(_linear);
         tape.Array(_angular);
+        tape.Array(_shownLinear);
+        tape.Array(_shownAngular);
         tape.Value(ref _isApplied);
     }
 
     /// <summary>Where a step ends, with the rows built there.</summary>
-    public void Apply()
+    public void Apply(LaneBatch<ScalarLane> batch)
     {
-        ActiveSet<ScalarLane> scalars = _batch.ActiveSet!;
+        ActiveSet<ScalarLane> scalars = batch.ActiveSet!;
         _isApplied = scalars.BeginCorrection();
         if (!_isApplied)
         {
             return;
         }
 
-        LaneTransfer<ScalarLane>.EndStep(_batch);
-        for (int body = 0; body < _linear.Length; body++)
+        LaneTransfer<ScalarLane>.EndStep(batch);
+        Note(batch, _linear, _angular);
+        bool hasAnswer = TryAnswer(batch, scalars);
+        while (hasAnswer && scalars.TakeOutOverloaded(batch.Work.Move))
         {
-            int o = LaneBatch<ScalarLane>.Body(body, 0);
-            _linear[body] = LaneTransfer<ScalarLane>.ReadVector(_batch.Bodies, o + BodyLanes.V);
-            _angular[body] = LaneTransfer<ScalarLane>.ReadVector(_batch.Bodies, o + BodyLanes.W);
-        }
-
-        bool hasAnswer = TryAnswer(scalars);
-        while (hasAnswer && scalars.TakeOutOverloaded(_batch.Work.Move))
-        {
-            TakeBack();
-            hasAnswer = TryAnswer(scalars);
+            TakeBack(batch);
+            hasAnswer = TryAnswer(batch, scalars);
         }
 
         if (!hasAnswer)
         {
-            TakeBack();
+            TakeBack(batch);
         }
 
         scalars.EndCorrection();
+        LaneTransfer<ScalarLane>.EndStep(batch);
+        Note(batch, _shownLinear, _shownAngular);
     }
 
-    private void TakeBack()
+    private static void Note(LaneBatch<ScalarLane> batch, Vector3d[] linear, Vector3d[] angular)
     {
-        double[] solution = _batch.Work.Solution;
+        for (int body = 0; body < linear.Length; body++)
+        {
+            int o = LaneBatch<ScalarLane>.Body(body, 0);
+            linear[body] = LaneTransfer<ScalarLane>.ReadVector(batch.Bodies, o + BodyLanes.V);
+            angular[body] = LaneTransfer<ScalarLane>.ReadVector(batch.Bodies, o + BodyLanes.W);
+        }
+    }
+
+    private static void TakeBack(LaneBatch<ScalarLane> batch)
+    {
+        double[] solution = batch.Work.Solution;
         for (int i = 0; i < solution.Length; i++)
         {
-            solution[i] = -_batch.Work.Move[i];
+            solution[i] = -batch.Work.Move[i];
         }
 
-        Impulses<ScalarLane>.Apply(_batch, solution);
+        Impulses<ScalarLane>.Apply(batch, solution);
     }
 
     // False where the rows leave it open; what was applied by then is finite.
-    private bool TryAnswer(ActiveSet<ScalarLane> scalars)
+    private static bool TryAnswer(LaneBatch<ScalarLane> batch, ActiveSet<ScalarLane> scalars)
     {
-        double[] solution = _batch.Work.Solution;
-        double[] sum = _batch.Work.Move;
-        RattleStep<ScalarLane>.Factor(_batch, false);
-        _batch.Work.Active[0] = 1;
+        double[] solution = batch.Work.Solution;
+        double[] sum = batch.Work.Move;
+        RattleStep<ScalarLane>.Factor(batch, false);
+        batch.Work.Active[0] = 1;
         Array.Clear(sum, 0, sum.Length);
         for (int pass = 0; pass < Passes; pass++)
         {
-            Impulses<ScalarLane>.NegativeSpeeds(_batch);
+            Impulses<ScalarLane>.NegativeSpeeds(batch);
             scalars.AddTargets();
             scalars.SubtractCorrections(sum);
-            DelassusMatrix<ScalarLane>.Solve(_batch, solution);
+            DelassusMatrix<ScalarLane>.Solve(batch, solution);
             foreach (double impulse in solution)
             {
                 if (!Finite.Is(impulse))
@@ -125,7 +136,7 @@ internal sealed class StiffSpringCorrection
                 }
             }
 
-            Impulses<ScalarLane>.Apply(_batch, solution);
+            Impulses<ScalarLane>.Apply(batch, solution);
             for (int i = 0; i < sum.Length; i++)
             {
                 sum[i] += solution[i];

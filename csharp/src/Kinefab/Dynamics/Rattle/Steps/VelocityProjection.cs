@@ -36,7 +36,9 @@ internal static class VelocityProjection<V>
             RattleStep<V>.Factor(batch, false);
         }
 
+        batch.Axes?.BeginVelocities();
         Impulses<V>.NegativeSpeeds(batch);
+        batch.Axes?.AddTargets();
         DelassusMatrix<V>.Solve(batch, batch.Work.Solution);
         Copy(batch, batch.Work.Solution, batch.VelocityImpulses);
         Impulses<V>.Apply(batch, batch.VelocityImpulses);
@@ -119,6 +121,7 @@ internal static class VelocityProjection<V>
         {
             Impulses<V>.NegativeSpeeds(batch);
             batch.ActiveSet?.AddTargets();
+            batch.Axes?.AddTargets();
             double[] error = batch.Work.Error;
             for (int k = 0; k < error.Length; k += Lane<V>.Width)
             {

@@ -1,4 +1,5 @@
 using System;
+using Kinefab.Joints;
 using Kinefab.Numerics;
 
 namespace Kinefab.Dynamics.Rattle;
@@ -13,6 +14,9 @@ internal class LaneRecords<V>
     /// <summary>Numbers of a joint: see <see cref="Frame"/> and <see cref="WorldFrame"/>.</summary>
     public const int JointCount = 48;
 
+    /// <summary>Numbers of a coordinate in <see cref="Turns"/>.</summary>
+    public const int TurnCount = 5;
+
     /// <param name="shape">What all its islands look like.</param>
     /// <param name="workspace">Arrays that hold nothing from step to step, shared by the batches of a shape.</param>
     public LaneRecords(Island shape, Workspace<V> workspace)
@@ -23,6 +27,8 @@ internal class LaneRecords<V>
         Compliance = new double[shape.RowCount * w];
         Members = new int[shape.Bodies.Length * w];
         JointMembers = new int[shape.Blocks.Length * w];
+        Models = new JointModel?[shape.Blocks.Length * w];
+        Couplings = new CoordinateCoupling?[shape.Blocks.Length * w];
         Bodies = new double[shape.Bodies.Length * BodyLanes.Count * w];
         Joints = new double[shape.Blocks.Length * JointCount * w];
         RowOffsets = new int[shape.Blocks.Length];
@@ -33,10 +39,21 @@ internal class LaneRecords<V>
             sides += shape.Blocks[n].Rows * shape.Blocks[n].Bodies.Length;
         }
 
+        TurnOffsets = new int[shape.Blocks.Length];
+        int turns = 0;
+        for (int n = 0; n < shape.Blocks.Length; n++)
+        {
+            int coordinates = shape.Blocks[n].Coupled.Length;
+            TurnOffsets[n] = turns * w;
+            turns += coordinates > 0 ? 1 + TurnCount * coordinates : 0;
+        }
+
+        Turns = new double[turns * w];
         Linear = new double[3 * sides * w];
         Angular = new double[3 * sides * w];
         Matrix = new double[shape.Pattern.Length * w];
-        Assembled = shape.Hubs.Length > 0 ? new double[Matrix.Length] : Array.Empty<double>();
+        bool isKept = shape.Hubs.Length > 0 || Array.Exists(shape.Blocks, block => block.IsAxisDriven);
+        Assembled = isKept ? new double[Matrix.Length] : Array.Empty<double>();
         VelocityImpulses = new double[shape.RowCount * w];
         if (shape.ScalarCount > 0)
         {
@@ -54,11 +71,22 @@ internal class LaneRecords<V>
     /// <summary>Joint of block n of a lane in the mechanism, at n * Width + lane; not set for couplings.</summary>
     public int[] JointMembers { get; }
 
+    /// <summary>The joint, or the coupling, that a lane has as block n, at n * Width + lane.</summary>
+    public JointModel?[] Models { get; }
+
+    public CoordinateCoupling?[] Couplings { get; }
+
     /// <summary>Records of <see cref="BodyLanes"/>.</summary>
     public double[] Bodies { get; }
 
     /// <summary>Records of <see cref="JointCount"/>.</summary>
     public double[] Joints { get; }
+
+    /// <summary>Of each coupling of hinges its offset and, for each hinge, its record: see <see cref="CoupledTurns{V}"/>.</summary>
+    public double[] Turns { get; }
+
+    /// <summary>Where those of a block begin.</summary>
+    public int[] TurnOffsets { get; }
 
     /// <summary>Linear and angular J: for each block, row and side a vector. Linear is read for <see cref="RowClass.General"/> alone.</summary>
     public double[] Linear { get; }
@@ -71,7 +99,7 @@ internal class LaneRecords<V>
     /// <summary>A = J M^-1 J^T, then its factor.</summary>
     public double[] Matrix { get; }
 
-    /// <summary>A before it was factored, for the refinement of what is solved with hubs; empty without them.</summary>
+    /// <summary>A before it was factored, for the refinement of what is solved with hubs, and for springs, which answer in the drift alone; empty without both.</summary>
     public double[] Assembled { get; }
 
     /// <summary>Impulses of the velocity projection, by which the next step starts.</summary>

@@ -1,0 +1,312 @@
+using System;
+using Kinefab.Numerics;
+
+namespace Kinefab.Dynamics.Rattle;
+
+/// <summary>One batch of a group and the parts of its step. Lanes may leave at any of them; they take no further part until the next step.</summary>
+internal sealed class LaneStep<V>
+    where V : struct, ILane<V>
+{
+    private readonly MultibodySystem _mechanism;
+    private readonly WatchedLimits<V>? _limits;
+    private readonly bool[] _converged = new bool[Lane<V>.Width];
+    private readonly bool[] _isAlone = new bool[Lane<V>.Width];
+    private readonly bool[] _hasFailed = new bool[Lane<V>.Width];
+    private readonly bool[] _hasLeftLate = new bool[Lane<V>.Width];
+
+    private readonly bool[] _isTakenOver = new bool[Lane<V>.Width];
+
+    // Lanes of which the rows are those of the pose that their last step has left.
+    private readonly bool[] _isBuilt = new bool[Lane<V>.Width];
+
+    /// <param name="mechanism">Where the islands are.</param>
+    /// <param name="islands">One a lane, as they are in lanes.</param>
+    /// <param name="shape">What they look like: one object for all batches, so that what it says is read from memory once.</param>
+    /// <param name="workspace">Shared by all batches of the shape.</param>
+    public LaneStep(MultibodySystem mechanism, Island[] islands, Island shape, Workspace<V> workspace)
+    {
+        _mechanism = mechanism;
+        Occupied = islands.Length;
+        Batch = new LaneBatch<V>(shape, workspace);
+        for (int lane = 0; lane < Lane<V>.Width; lane++)
+        {
+            // Lanes without an island of their own hold a copy of the first, which is never active.
+            LaneTransfer<V>.GatherConstants(Batch, lane, islands[lane < islands.Length ? lane : 0], mechanism);
+        }
+
+        _limits = WatchedLimits<V>.Of(shape);
+    }
+
+    public LaneBatch<V> Batch { get; }
+
+    /// <summary>Lanes with an island of their own, the first ones.</summary>
+    public int Occupied { get; }
+
+    /// <summary>Whether a lane has left the step.</summary>
+    public bool IsAlone(int lane) => _isAlone[lane];
+
+    /// <summary>Whether it did so since its drift did not arrive.</summary>
+    public bool HasFailed(int lane) => _hasFailed[lane];
+
+    /// <summary>Whether it did so after the drift of all.</summary>
+    public bool HasLeftLate(int lane) => _hasLeftLate[lane];
+
+    /// <summary>Whether its step was made elsewhere.</summary>
+    public bool IsTakenOver(int lane) => _isTakenOver[lane];
+
+    /// <summary>Whether every lane with an island takes part.</summary>
+    public bool AreAllActive => Array.IndexOf(_isAlone, true, 0, Occupied) < 0;
+
+    public bool IsActive(int lane) => !_isAlone[lane];
+
+    /// <summary>Whether a body of the lane is not where the last step left it.</summary>
+    public bool IsMoved(int lane) => Batch.Work.Moved[lane] != 0;
+
+    public void Leave(int lane) => _isAlone[lane] = true;
+
+    /// <summary>No lane takes part in this step.</summary>
+    public void LeaveAll()
+    {
+        Array.Fill(_isAlone, true);
+        Array.Clear(_isBuilt, 0, _isBuilt.Length);
+    }
+
+    /// <summary>The step's start from the world. Lanes that stand open, or move as their joints forbid, are left to the step controller.</summary>
+    public void Load(double dt)
+    {
+        LaneTransfer<V>.Gather(Batch, _mechanism, dt);
+        bool isMoved = false;
+        for (int lane = 0; lane < Lane<V>.Width; lane++)
+        {
+            _isAlone[lane] = lane >= Occupied;
+            if (lane < Occupied && IsMoved(lane))
+            {
+                isMoved = true;
+                ClearHistory(lane);
+            }
+        }
+
+        LaneTransfer<V>.BeginStep(Batch);
+        CoupledTurns<V>.Gather(Batch);
+        if (isMoved)
+        {
+            Rebuild();
+            LeaveOpenOnes();
+            LeaveForbiddenSpeeds();
+        }
+    }
+
+    /// <summary>The same of some lanes, as another batch has found them.</summary>
+    public void Load(LaneStep<V> from, bool[] lanes)
+    {
+        LaneTransfer<V>.CopyStart(from.Batch, Batch);
+        CoupledTurns<V>.Gather(Batch);
+        for (int lane = 0; lane < Lane<V>.Width; lane++)
+        {
+            _isAlone[lane] = !lanes[lane];
+            Batch.Work.Moved[lane] = 0;
+            LaneTransfer<V>.CopyGuess(from.Batch, lane, Batch, lane);
+        }
+    }
+
+    /// <summary>Into how many parts the step of a lane would have to be cut, up to 1 into none.</summary>
+    public double Demand(int lane, double dt)
+    {
+        double stiffest = 0;
+        for (int body = 0; body < Batch.Shape.MovingBodies; body++)
+        {
+            stiffest = Math.Max(stiffest, Batch.Bodies[LaneBatch<V>.Body(body, BodyLanes.Stiffness) + lane]);
+        }
+
+        return StepLimit.Of(stiffest, Batch.Work.Fastest[lane], dt);
+    }
+
+    /// <summary>Whether a lane stands at a limit for which there is no row here.</summary>
+    public bool IsAtLimit(int lane, double tolerance) => _limits != null && _limits.IsReached(Batch, lane, tolerance);
+
+    /// <summary>Builds what is not, and sets the rows of drives and limits; lanes that cannot do the step with these leave.</summary>
+    public void Begin(double dt, double tolerance)
+    {
+        bool isBuilt = true;
+        for (int lane = 0; lane < Lane<V>.Width; lane++)
+        {
+            _hasFailed[lane] = false;
+            _hasLeftLate[lane] = false;
+            _isTakenOver[lane] = false;
+            isBuilt &= _isAlone[lane] || _isBuilt[lane];
+        }
+
+        if (!isBuilt)
+        {
+            Rebuild();
+        }
+
+        Batch.Axes?.Clear();
+        for (int lane = 0; lane < Occupied && Batch.Axes != null; lane++)
+        {
+            if (_isAlone[lane] || IsMoved(lane) || !Batch.Axes.TryBegin(lane, dt, ActiveSet<V>.Reach * tolerance))
+            {
+                _isAlone[lane] = true;
+                Batch.Axes.Leave(lane);
+            }
+        }
+    }
+
+    /// <summary>The drift of the lanes that take part; those that do not arrive, or pass a limit or a bound, leave.</summary>
+    public void Drift(double dt, double tolerance)
+    {
+        if (!Activate())
+        {
+            return;
+        }
+
+        RattleStep<V>.KickAndDrift(Batch, dt, tolerance, _converged);
+        _limits?.Measure(Batch);
+        for (int lane = 0; lane < Occupied; lane++)
+        {
+            if (!_isAlone[lane])
+            {
+                _hasFailed[lane] = !_converged[lane];
+                _isAlone[lane] = _hasFailed[lane] || (_limits != null && _limits.IsPassed(Batch, lane, tolerance)) || (Batch.Axes != null && !Batch.Axes.HasFreeDrift(lane));
+            }
+        }
+    }
+
+    /// <summary>The end of the step of the lanes that take part; those whose rows leave their bounds leave late.</summary>
+    public void Project(double dt, double tolerance)
+    {
+        if (Array.IndexOf(_isTakenOver, true) >= 0)
+        {
+            BilateralRows<V>.Place(Batch);
+        }
+
+        if (!Activate())
+        {
+            Array.Clear(_isBuilt, 0, _isBuilt.Length);
+            return;
+        }
+
+        RattleStep<V>.Build(Batch);
+        VelocityProjection<V>.Run(Batch, dt, tolerance);
+        for (int lane = 0; lane < Lane<V>.Width; lane++)
+        {
+            _hasLeftLate[lane] = !_isAlone[lane] && Batch.Axes != null && !Batch.Axes.HasFreeProjection(lane);
+            _isAlone[lane] |= _hasLeftLate[lane];
+            _isBuilt[lane] = !_isAlone[lane] || (_isTakenOver[lane] && !_hasLeftLate[lane]);
+        }
+    }
+
+    /// <summary>What the lanes that take part have come to, back to the world.</summary>
+    public void End(double dt)
+    {
+        if (!Activate())
+        {
+            return;
+        }
+
+        if (Array.IndexOf(_hasLeftLate, true) >= 0)
+        {
+            BilateralRows<V>.Place(Batch);
+            DelassusMatrix<V>.InverseInertias(Batch);
+        }
+
+        RattleStep<V>.Accept(Batch);
+        GeometricStiffness<V>.Estimate(Batch, Batch.VelocityImpulses, dt / 2);
+        RattleStep<V>.Accumulate(Batch);
+        LaneTransfer<V>.EndStep(Batch);
+        LaneTransfer<V>.Scatter(Batch, Occupied, _mechanism);
+        Reactions<V>.Report(Batch, Occupied, _mechanism, dt);
+        for (int lane = 0; lane < Occupied; lane++)
+        {
+            if (!_isAlone[lane])
+            {
+                CoupledTurns<V>.Finish(Batch, lane);
+                _limits?.FinishAngles(Batch, lane);
+                Batch.Axes?.Finish(lane);
+            }
+        }
+    }
+
+    /// <summary>A lane's step was made elsewhere.</summary>
+    public void TakeOver<S>(int lane, LaneBatch<S> from, int fromLane)
+        where S : struct, ILane<S>
+    {
+        LaneTransfer<V>.CopyLane(Batch, lane, from, fromLane);
+        _isTakenOver[lane] = true;
+    }
+
+    /// <summary>The steps of all lanes were made elsewhere, in the same lanes.</summary>
+    public void TakeOver(LaneBatch<V> from)
+    {
+        LaneTransfer<V>.CopyLanes(Batch, from);
+        Array.Fill(_isTakenOver, true);
+    }
+
+    /// <summary>What the next step takes from those before it.</summary>
+    public void Exchange(StateTape tape)
+    {
+        Batch.Exchange(tape);
+        Batch.Axes?.Exchange(tape);
+        tape.Array(_isBuilt);
+    }
+
+    private void Rebuild()
+    {
+        FreeMotion<V>.Stay(Batch);
+        RattleStep<V>.Rebuild(Batch);
+        Array.Fill(_isBuilt, true);
+    }
+
+    private bool Activate()
+    {
+        bool isAny = false;
+        for (int lane = 0; lane < Lane<V>.Width; lane++)
+        {
+            Batch.Work.Active[lane] = _isAlone[lane] ? 0 : 1;
+            isAny |= !_isAlone[lane];
+        }
+
+        return isAny;
+    }
+
+    private void LeaveForbiddenSpeeds()
+    {
+        Impulses<V>.NegativeSpeeds(Batch);
+        double[] speeds = Batch.Work.Solution;
+        for (int n = 0; n < Batch.Shape.Blocks.Length; n++)
+        {
+            int first = Batch.Shape.Pattern.Rows[n] * Lane<V>.Width;
+            int end = first + Batch.Shape.Blocks[n].BilateralCount * Lane<V>.Width;
+            for (int i = first; i < end; i++)
+            {
+                int lane = i % Lane<V>.Width;
+                _isAlone[lane] |= IsMoved(lane) && Math.Abs(speeds[i]) > InitialVelocityProjection.MostForbidden;
+            }
+        }
+    }
+
+    private void LeaveOpenOnes()
+    {
+        if (Batch.Shape.IsInconsistent)
+        {
+            return;
+        }
+
+        BilateralRows<V>.Evaluate(Batch);
+        BilateralRows<V>.MeasureErrors(Batch);
+        for (int lane = 0; lane < Lane<V>.Width; lane++)
+        {
+            _isAlone[lane] |= IsMoved(lane) && Batch.Work.MaxError[lane] > PositionProjection.MostOpen;
+        }
+    }
+
+    private void ClearHistory(int lane)
+    {
+        for (int i = lane; i < Batch.VelocityImpulses.Length; i += Lane<V>.Width)
+        {
+            Batch.VelocityImpulses[i] = 0;
+        }
+
+        Batch.Axes?.Forget(lane);
+    }
+}

@@ -93,7 +93,7 @@ internal sealed partial class ActiveSet<V>
     {
         if (pass == 0)
         {
-            _seen.Clear();
+            _seenCount = 0;
             _movesAll = true;
         }
 
@@ -103,9 +103,12 @@ internal sealed partial class ActiveSet<V>
         }
 
         _movesAll &= pass < FreePasses;
-        if (!_seen.Add(States()))
+        ulong states = States();
+        bool isSeen = Array.IndexOf(_seen, states, 0, _seenCount) >= 0;
+        _seen[_seenCount++] = states;
+        if (isSeen)
         {
-            _seen.Clear();
+            _seenCount = 0;
             if (!_movesAll)
             {
                 return LeaveLimits(tolerance);

@@ -1,5 +1,4 @@
 using System;
-using System.Collections.Generic;
 using Kinefab.Joints;
 using Kinefab.Numerics;
 
@@ -32,7 +31,8 @@ internal sealed partial class ActiveSet<V>
     private readonly ScalarRow[] _rows;
 
     // In the drift's search for states: the sets that were seen, and whether all rows out of place move at once.
-    private readonly HashSet<ulong> _seen = new();
+    private readonly ulong[] _seen = new ulong[MaxPasses];
+    private int _seenCount;
     private bool _movesAll;
 
     public ActiveSet(LaneRecords<V> batch, ScalarRows scalars)

@@ -205,7 +205,8 @@ def _twists_of(system: System, pairs: Pairs, length: float) -> tuple[list[Array]
     rows, origin, own_length = relative_rows(system, pairs, system.start())
     rank, _, vt, _, _ = batched_null_spaces(rows, pairs.row_pair, len(pairs))
     left = vt.copy()
-    point: Array = origin.mean(axis=0) if len(pairs) else np.zeros(3)  # joints that may break hold all bodies together
+    # Where joints that may break hold all bodies together no pair is left.
+    point: Array = origin.mean(axis=0) if len(pairs) else np.zeros(3)
     arm = point - origin
     left[:, :, :3] = (vt[:, :, :3] * own_length[:, None, None] + cross(vt[:, :, 3:], arm[:, None])) / length
     twists = [left[i, r:].T for i, r in enumerate(rank.tolist())]

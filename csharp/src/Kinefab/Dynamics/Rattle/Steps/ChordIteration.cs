@@ -17,8 +17,8 @@ internal static class ChordIteration<V>
     // An error that does not fall below this share of itself in an iteration gets no better.
     private const double StillShare = 0.9;
 
-    // Tolerances that anchors may be apart then: with the speed of a short step little changes in an iteration, closed or not.
-    private const double MostGaps = 4;
+    /// <summary>Tolerances that anchors may be apart then, along each axis: with the speed of a short step little changes in an iteration, closed or not.</summary>
+    public const double MostGaps = 4;
 
     // Largest error of an angle that may be left then, radians.
     private const double MostAngle = 1e-3;

@@ -111,7 +111,7 @@ internal sealed class ImplicitEulerStep
         }
 
         // With the anchors together, forces and angles that are a little off are better than no step.
-        return batch.Work.MaxGap[0] < 10 * tolerance;
+        return batch.Work.MaxGap[0] < ChordIteration<ScalarLane>.MostGaps * tolerance;
     }
 
     // r = (v - aim) - M^-1 J^T l for the linear part, L - aim - J^T l for the angular one; the largest as a speed.

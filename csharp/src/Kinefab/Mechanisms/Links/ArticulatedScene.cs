@@ -1,6 +1,7 @@
 using System;
 using System.Collections.Generic;
 using System.Globalization;
+using System.Threading;
 using Kinefab.Diagnostics;
 using Kinefab.Document;
 using Kinefab.Numerics;
@@ -23,8 +24,9 @@ public static class ArticulatedScene
     /// <summary>The scene with links for the Rigidbodies that joints connect; as it is where it has links, or no joints.</summary>
     /// <param name="scene">With the poses of its file.</param>
     /// <param name="report">What links have no place for, and where there is no scene which joints no articulation can have; places are those of <paramref name="scene"/>.</param>
+    /// <param name="cancellation">Ends it early, with an OperationCanceledException.</param>
     /// <returns>Null where an articulation cannot hold all of its joints.</returns>
-    public static ValidScene? Of(ValidScene scene, out Report report)
+    public static ValidScene? Of(ValidScene scene, out Report report, CancellationToken cancellation = default)
     {
         if (scene is null)
             throw new ArgumentNullException(nameof(scene));
@@ -36,17 +38,17 @@ public static class ArticulatedScene
         }
 
         var findings = new List<Diagnostic>();
-        SceneDocument made = Make(scene, findings);
+        SceneDocument made = Make(scene, findings, cancellation);
         report = new Report(findings);
         if (report.HasErrors)
             return null;
-        SceneValidation validation = SceneValidator.Validate(made);
+        SceneValidation validation = SceneValidator.Validate(made, cancellation: cancellation);
         if (validation.Scene is null)
             report = report.Concat(validation.Report);
         return validation.Scene;
     }
 
-    private static SceneDocument Make(ValidScene scene, List<Diagnostic> findings)
+    private static SceneDocument Make(ValidScene scene, List<Diagnostic> findings, CancellationToken cancellation)
     {
         SceneDocument document = scene.Document;
         var tree = new LinkTree(document, findings);
@@ -58,6 +60,7 @@ public static class ArticulatedScene
         var poses = new LinkPoses(scene);
         foreach (Branch branch in tree.Branches)
         {
+            cancellation.ThrowIfCancellationRequested();
             ArticulationBody link = Link(tree, branch, poses, told, findings);
             List<Component> own = InPlaceOfBody(objects[branch.Child].Components, link);
             objects[branch.Child] = Below(objects[branch.Child], branch, poses) with { Components = own };

@@ -14,8 +14,10 @@ internal sealed class Substep
 
     private const int MaxTrials = 40;
 
-    // C of a limit, in tolerances, at which it is reached.
-    private const double MostPassed = 1;
+    /// <summary>C of a limit, in tolerances below 0, down to which a drift has reached it and not passed it.</summary>
+    public const double MostPassed = 1;
+
+    // And up to which above 0.
     private const double MostShort = 5;
 
     // A piece shorter than this share of the part says little of the impulses of the rest.

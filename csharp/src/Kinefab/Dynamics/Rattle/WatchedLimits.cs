@@ -11,9 +11,6 @@ namespace Kinefab.Dynamics.Rattle;
 internal sealed class WatchedLimits<V>
     where V : struct, ILane<V>
 {
-    // Tolerances by which the end of a drift may be past a limit, as in Substep.
-    private const double MostPassed = 1;
-
     private readonly Island _shape;
     private readonly ConstraintRow[] _rows = new ConstraintRow[JointModel.MaxRows];
 
@@ -89,7 +86,7 @@ internal sealed class WatchedLimits<V>
             JointModel joint = batch.Models[n * w + lane]!;
             if (form == WatchForm.Prepared)
             {
-                if (!(LeastLeft(batch, n, joint, lane) >= -MostPassed * tolerance))
+                if (!(LeastLeft(batch, n, joint, lane) >= -Substep.MostPassed * tolerance))
                 {
                     return true;
                 }
@@ -99,7 +96,7 @@ internal sealed class WatchedLimits<V>
 
             ref double turn = ref _turns[2 * n * w + lane];
             turn = SwingTwist.Nearest(turn, joint.LastTwist);
-            if (form == WatchForm.Twist && !(HingeRange.LeftOf(joint, turn) >= -MostPassed * tolerance))
+            if (form == WatchForm.Twist && !(HingeRange.LeftOf(joint, turn) >= -Substep.MostPassed * tolerance))
             {
                 return true;
             }

@@ -13,13 +13,8 @@ namespace Kinefab.Dynamics.Rattle;
 internal sealed class AxisRows<V>
     where V : struct, ILane<V>
 {
-    // Keeps the pivot of a motor or limit that other rows hold too above 0, as in the active set.
-    private const double RigidShare = 1e-11;
-
     // Share of a spring's impulse before the drift, and of a motor's: that of a step that can follow it.
     private const double Share = 0.5;
-
-    private const double LeastResponse = 1e-200;
 
     // Compliance of a spring in the projection, in which it does not answer: what is left of an impulse is below rounding.
     private const double Endless = 1e40;
@@ -201,7 +196,7 @@ internal sealed class AxisRows<V>
             Lane<V> isSpring = IsSpring(kind);
             Lane<V> compliance = isDrift ? Load(k, Compliance) : Lane<V>.Splat(Endless);
             Lane<V> diagonal = Lane<V>.Load(_batch.Matrix, cell);
-            Lane<V> held = Lane<V>.Select(isSpring, diagonal + compliance, diagonal * Lane<V>.Splat(1 + RigidShare));
+            Lane<V> held = Lane<V>.Select(isSpring, diagonal + compliance, diagonal * Lane<V>.Splat(1 + ScalarRow.RigidShare));
             Lane<V>.Select(kind, held, one).Store(_batch.Matrix, cell);
             kind.Store(_factored, k * w);
         }
@@ -369,7 +364,7 @@ internal sealed class AxisRows<V>
         HingeDrive drive = HingeDrive.Of(joint);
         int w = Lane<V>.Width;
         double response = _numbers[o + Response * w];
-        if (!drive.IsLinear || !(response > LeastResponse))
+        if (!drive.IsLinear || !(response > ScalarRow.LeastResponse))
         {
             return false;
         }

@@ -56,6 +56,12 @@ internal struct ScalarRow
     /// <summary>A limit that is passed by less at a step's start is the drift's to close, m or rad; one by more, that closing the pose left there, stays.</summary>
     public const double MostClosedByDrift = 1e-6;
 
+    /// <summary>Keeps the pivot of a limit or speed that other rows hold too above 0, without a trace in the speed.</summary>
+    public const double RigidShare = 1e-11;
+
+    /// <summary>A compliance beyond this share of the row's response stands for a spring that hardly acts.</summary>
+    public const double LeastResponse = 1e-200;
+
     public RowKind Kind;
     public RowState State;
 

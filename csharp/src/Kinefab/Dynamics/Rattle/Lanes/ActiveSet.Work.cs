@@ -71,7 +71,7 @@ internal sealed partial class ActiveSet<V>
                 double k = Stiffness(scalar);
                 bool isForce = _batch.Models[scalar.Block]!.DriveLimitsAreForces || !scalar.Built.Has(RowFlags.HasDriveLimit);
                 double most = (c < 0 ? scalar.Built.Maximum : -scalar.Built.Minimum) / (isForce ? 1 : dt);
-                double yield = Math.Min(Math.Abs(c), most / Math.Max(k, LeastResponse));
+                double yield = Math.Min(Math.Abs(c), most / Math.Max(k, ScalarRow.LeastResponse));
                 sum += k * yield * (Math.Abs(c) - yield / 2);
             }
         }
@@ -112,7 +112,7 @@ internal sealed partial class ActiveSet<V>
     private double Stiffness(in ScalarRow scalar)
     {
         double response = scalar.Built.Has(RowFlags.AccelerationSpring) ? Response(scalar) : 1;
-        return response > LeastResponse ? scalar.Built.Stiffness / response : 0;
+        return response > ScalarRow.LeastResponse ? scalar.Built.Stiffness / response : 0;
     }
 
     // Whether the force is one in C alone and C changes as the row moves: not where a damper drives, nor of twist and swing

@@ -17,12 +17,6 @@ internal sealed partial class ActiveSet<V>
     private const int FreePasses = 8;
     private const int MaxPasses = 64;
 
-    // Keeps the pivot of a limit or speed that other rows hold too above 0, without a trace in the speed.
-    private const double RigidShare = 1e-11;
-
-    // A compliance beyond this share of the row's response stands for a spring that hardly acts.
-    private const double LeastResponse = 1e-200;
-
     /// <summary>A limit this many tolerances away counts as reached.</summary>
     public const double Reach = 10;
 
@@ -114,7 +108,7 @@ internal sealed partial class ActiveSet<V>
                 scalar.State = RowState.Free;
             }
 
-            if (response < LeastResponse)
+            if (response < ScalarRow.LeastResponse)
             {
                 scalar.Kind = RowKind.None;
                 scalar.State = RowState.AtBound;
@@ -271,7 +265,7 @@ internal sealed partial class ActiveSet<V>
                     _batch.Matrix[cell] = 1;
                     break;
                 case ProjectedAs.Rigid:
-                    _batch.Matrix[cell] = _batch.Matrix[cell] * (1 + RigidShare) + RigidShare * _batch.Work.HubResponse[scalar.Index];
+                    _batch.Matrix[cell] = _batch.Matrix[cell] * (1 + ScalarRow.RigidShare) + ScalarRow.RigidShare * _batch.Work.HubResponse[scalar.Index];
                     break;
                 default:
                     _batch.Matrix[cell] += 1 / (isDrift ? scalar.Theta * scalar.ImplicitDamping : scalar.CorrectionGain);

@@ -45,14 +45,14 @@ internal sealed class ConjugateGradient
         Array.Clear(_sum, 0, _sum.Length);
         DelassusMatrix<ScalarLane>.Solve(_batch, solution);
         Array.Copy(solution, _direction, solution.Length);
-        double square = Product(_residual, solution);
+        double square = DenseVector.Dot(_residual, solution);
         double norm = square;
         double enough = MostLeft * square;
         SwapMomenta();
         for (int iteration = 0; iteration < MaxIterations && square > enough; iteration++)
         {
             Multiply(_direction, isDrift);
-            double curvature = Product(_direction, solution);
+            double curvature = DenseVector.Dot(_direction, solution);
             if (!(curvature > LeastCurvature * norm))
             {
                 break;
@@ -67,7 +67,7 @@ internal sealed class ConjugateGradient
 
             Array.Copy(_residual, solution, solution.Length);
             DelassusMatrix<ScalarLane>.Solve(_batch, solution);
-            double next = Product(_residual, solution);
+            double next = DenseVector.Dot(_residual, solution);
             for (int i = 0; i < solution.Length; i++)
             {
                 _direction[i] = solution[i] + next / square * _direction[i];
@@ -110,16 +110,5 @@ internal sealed class ConjugateGradient
                 (_batch.Bodies[o + i], _momenta[6 * body + i]) = (_momenta[6 * body + i], _batch.Bodies[o + i]);
             }
         }
-    }
-
-    private static double Product(double[] a, double[] b)
-    {
-        double sum = 0;
-        for (int i = 0; i < a.Length; i++)
-        {
-            sum += a[i] * b[i];
-        }
-
-        return sum;
     }
 }

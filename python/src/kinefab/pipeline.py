@@ -20,7 +20,7 @@ from .analysis.joints.dof_records import joints_of_dof_records
 from .analysis.joints.stated_limits import check_limits
 from .collector import collector_paused
 from .diagnostics import KinefabError, Report
-from .geometry.collision import ConvexOnly, collision_meshes
+from .geometry.collision import collision_meshes
 from .geometry.contact.helping import with_helpers
 from .geometry.loading import MeshFiles, load_geometry
 from .geometry.looks.shading import with_normals
@@ -260,9 +260,8 @@ def _mapped(found: Analysed, options: ExportOptions, links: bool, report: Report
     if isinstance(found.scene, WrittenScene) and (as_written := found.scene.as_written(links, options, report)):
         return as_written
     scene, groups = with_normals(found.scene, options.smooth), found.groups
-    convex = ConvexOnly.with_links(scene, groups, options.ground) if links else ConvexOnly()
-    made = collision_meshes(found.scene, groups, options.colliders, options.ground, convex, report)
-    colliders = Colliders.behind(len(scene.meshes), made, options.colliders, options.ground, convex)
+    made = collision_meshes(found.scene, groups, options.colliders, options.ground, report)
+    colliders = Colliders.behind(len(scene.meshes), made, options.colliders, options.ground)
     entry, held = scene_entry(found.analysis), holding(found.analysis)
     mapped = map_scene(scene, groups, colliders, report, entry, held, found.analysis.findings)
     mapped = with_groups_apart(with_welded_apart(mapped), found.scene, report)

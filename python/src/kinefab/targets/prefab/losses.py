@@ -20,8 +20,9 @@ from ...unity.scene import (
     SphereCollider,
     UnityScene,
 )
+from ...unity.assets.meshes import mesh_name
 from ...unity.links.motions import RUNTIME
-from .meshes import is_colored, mesh_name
+from .meshes import is_colored
 from .options import PrefabOptions
 from .text.dialects import Pipeline
 

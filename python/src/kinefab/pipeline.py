@@ -39,15 +39,15 @@ from .targets import check_target, known_endings, target_of, write
 from .targets.content import Content
 from .unity.back.source import WrittenScene
 from .unity.bodies.colliders import Colliders
-from .unity.bodies.mated import with_mated_apart
-from .unity.grouped import with_groups_apart
+from .unity.contact.grouped import with_groups_apart
+from .unity.contact.mated import with_mated_apart
+from .unity.contact.overlaps import check_overlaps
+from .unity.contact.welded import with_welded_apart
 from .unity.joints.breaking import with_sound_breaks
 from .unity.mapping import map_scene
-from .unity.overlaps import check_overlaps
 from .unity.scene import Joint as UnityJoint
 from .unity.scene import UnityScene
 from .unity.switched_off import with_switched_off
-from .unity.welded import with_welded_apart
 
 Progress = Callable[[str, float], None]
 """Called with a stage's name and how much of it is done, 0 to 1."""

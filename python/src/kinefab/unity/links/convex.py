@@ -15,7 +15,7 @@ from ...options import Ground
 from ...rigid import RigidGroups
 from ..assets.meshes import mesh_name, unmapped_mesh, with_meshes_behind
 from ..bodies.colliders import box_about
-from ..overlaps import bodies_of
+from ..contact.overlaps import bodies_of
 from ..scene import BoxCollider, GameObject, MeshCollider, UnityScene
 
 Place = tuple[int, int]

@@ -17,8 +17,8 @@ from ...model import Joint as ModelJoint
 from ...model import Scene, free_id
 from ...rigid import RigidGroups
 from ...spatial import Pose, matrix_from_quaternion, quaternion_from_matrix
+from ..contact.overlaps import check_overlaps
 from ..mapping import GROUND_ID
-from ..overlaps import check_overlaps
 from ..scene import (
     AnimationClip,
     ArticulationBody,

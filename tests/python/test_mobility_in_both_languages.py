@@ -89,6 +89,8 @@ APART_ONCE = {
     11902: (5, 3),  # couplings that tie a slide, and leave its turn
     12243: (6, 3),
     30685: (2, 2),  # two idle spins, and a velocity obstructed at every pose
+    60153: (2, 0),  # a block's only motion, in a part that a coupling makes larger
+    60536: (7, 0),  # a screw that a rod holds by the square of its lead alone
 }
 """Mechanisms, by seed, that were once counted differently: mobility and idle freedoms."""
 
@@ -105,6 +107,7 @@ def test_both_count_what_was_counted_differently(tmp_path, seed):
 BODIES_APART_ONCE = {
     13758: ("part3", 3, 3),  # 2e-4 beside the other five
     40144: ("high2", 1, 3),  # 8e-5 of its legs' speeds
+    60637: ("top", 0, 1),
     50776: ("part1", 1, 1),  # a screw on a screw: 1e-6 of the others' speeds
 }
 """Bodies whose freedoms were once counted differently, by seed: translations and rotations.  Counted by rank with 60 digits."""

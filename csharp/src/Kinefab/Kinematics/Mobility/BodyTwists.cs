@@ -13,7 +13,7 @@ namespace Kinefab.Kinematics;
 internal sealed class BodyTwists
 {
     // Velocities are of length 1 altogether, so what is small in one body is small in itself, not only beside the rest.
-    private const double LeastMotion = 1e-9;
+    private const double LeastMotion = 1e-7;
 
     // Sine of the angle up to which directions of different joints are one: no CAD program leaves axes further off.
     private const double SameDirection = 1e-4;

@@ -111,8 +111,13 @@ internal sealed class FiniteMobility
 
         _newton.Motion.Start(moved.Poses);
         _newton.Motion.Move(moved.Poses, step);
-        _newton.Close(moved);
         var left = new double[step.Length];
+        if (!_newton.Close(moved))
+        {
+            // What does not come back onto the joints has kept nothing.
+            return left;
+        }
+
         for (int i = 0; i < left.Length; i++)
         {
             left[i] = (step[i] + _newton.Closing[i]) / length;

@@ -26,10 +26,10 @@ internal sealed class FreedomChoice
     private readonly int[] _free;
     private readonly int[] _turns;
 
-    private FreedomChoice(Mechanism mechanism)
+    private FreedomChoice(Mechanism mechanism, CancellationToken cancellation)
     {
         _mechanism = mechanism;
-        var newton = new NewtonSolver(mechanism.Linkage);
+        var newton = new NewtonSolver(mechanism.Linkage, cancellation);
         _state = mechanism.NewState();
         newton.Close(_state);
         newton.Motion.Start(_state.Poses);
@@ -47,7 +47,7 @@ internal sealed class FreedomChoice
     /// <summary>Indices of coordinates, rising.</summary>
     public static IReadOnlyList<int> Of(Mechanism mechanism, CancellationToken cancellation)
     {
-        var choice = new FreedomChoice(mechanism);
+        var choice = new FreedomChoice(mechanism, cancellation);
         var chosen = new List<int>();
         var tied = new List<int>?[choice._parts.Count];
         for (int i = 0; i < mechanism.Coordinates.Count; i++)
@@ -87,7 +87,7 @@ internal sealed class FreedomChoice
     private List<int> Independent(List<int> coordinates, IndependentLinkage part, CancellationToken cancellation)
     {
         var loop = new LoopMobility(part, _state, cancellation);
-        var newton = new NewtonSolver(part.Linkage);
+        var newton = new NewtonSolver(part.Linkage, cancellation);
         Pose[] poses = part.StateOf(_state).Poses;
         newton.Motion.Start(poses);
         var chosen = new List<int>();

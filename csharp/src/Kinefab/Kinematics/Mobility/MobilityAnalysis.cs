@@ -21,7 +21,7 @@ public static class MobilityAnalysis
     {
         if (mechanism is null)
             throw new ArgumentNullException(nameof(mechanism));
-        var newton = new NewtonSolver(mechanism.Linkage);
+        var newton = new NewtonSolver(mechanism.Linkage, cancellation);
         MechanismState state = mechanism.NewState();
         newton.Close(state);
         newton.Motion.Start(state.Poses);

@@ -18,7 +18,7 @@ from ..freedom.stacks import alike
 from ..freedom.twists import twist_spaces
 from ..pairs.relations import Relation
 
-LEAST = 1e-9
+LEAST = 1e-7
 """Share of a block's velocities, of length 1 altogether, up to which a body has no part in them."""
 SAME_DIRECTION = 1e-4
 """Sine of the angle up to which directions of different joints are one: no CAD program leaves axes further off."""

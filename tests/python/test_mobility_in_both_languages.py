@@ -89,6 +89,7 @@ APART_ONCE = {
     11902: (5, 3),  # couplings that tie a slide, and leave its turn
     12243: (6, 3),
     30685: (2, 2),  # two idle spins, and a velocity obstructed at every pose
+    72343: (4, 0),  # a steep coupling hid that a turn is obstructed
     60153: (2, 0),  # a block's only motion, in a part that a coupling makes larger
     60536: (7, 0),  # a screw that a rod holds by the square of its lead alone
 }

@@ -91,7 +91,8 @@ internal sealed class FreedomChoice
         Pose[] poses = part.StateOf(_state).Poses;
         newton.Motion.Start(poses);
         var chosen = new List<int>();
-        int[] order = coordinates.Where(i => !IsInABall(i)).OrderBy(Rank).ThenBy(i => i).ToArray();
+        HashSet<int> looped = Looped(part);
+        int[] order = coordinates.Where(i => !IsInABall(i, looped)).OrderBy(Rank).ThenBy(i => i).ToArray();
         double[][] rates = Array.ConvertAll(order, i => Rates(i, Array.BinarySearch(part.Joints, _mechanism.Coordinates[i].Joint), newton, poses, loop.Here.Basis));
         var before = new List<double[]>();
         foreach (double least in LeastShares)
@@ -127,11 +128,31 @@ internal sealed class FreedomChoice
         return motions.Select(motion => newton.Equations.Rate(joint, row, poses, motion)).ToArray();
     }
 
-    // The angles of a ball in a loop are what is left to a rod that spins idly.
-    private bool IsInABall(int coordinate)
+    // The angles of a ball in a loop are what is left to a rod that spins idly. A ball that couplings alone tie turns what hangs on it.
+    private bool IsInABall(int coordinate, HashSet<int> looped)
     {
         MechanismCoordinate own = _mechanism.Coordinates[coordinate];
-        return own.IsAngle && _turns[own.Joint] == 3 && _parts.Movers(BlockOf(coordinate)).Count > 1;
+        return own.IsAngle && _turns[own.Joint] == 3 && looped.Contains(own.Joint);
+    }
+
+    // The joints of a part's loops, by the mechanism's index.
+    private static HashSet<int> Looped(IndependentLinkage part)
+    {
+        var looped = new HashSet<int>();
+        KinematicTree tree = part.Linkage.Tree;
+        foreach (int closure in tree.Closures)
+        {
+            looped.Add(part.Joints[closure]);
+            foreach (int body in part.Linkage.Rows.Joints[closure].Bodies)
+            {
+                if (tree.TreeJoints[body] >= 0)
+                {
+                    looped.Add(part.Joints[tree.TreeJoints[body]]);
+                }
+            }
+        }
+
+        return looped;
     }
 
     // What drives comes first, then hinges and slides that hold to what the block hangs on.

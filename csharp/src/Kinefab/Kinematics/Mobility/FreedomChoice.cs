@@ -92,7 +92,7 @@ internal sealed class FreedomChoice
         newton.Motion.Start(poses);
         var chosen = new List<int>();
         HashSet<int> looped = Looped(part);
-        int[] order = coordinates.Where(i => !IsInABall(i, looped)).OrderBy(Rank).ThenBy(i => i).ToArray();
+        int[] order = coordinates.Where(i => Holds(part, i) && !IsInABall(i, looped)).OrderBy(Rank).ThenBy(i => i).ToArray();
         double[][] rates = Array.ConvertAll(order, i => Rates(i, Array.BinarySearch(part.Joints, _mechanism.Coordinates[i].Joint), newton, poses, loop.Here.Basis));
         var before = new List<double[]>();
         foreach (double least in LeastShares)
@@ -127,6 +127,9 @@ internal sealed class FreedomChoice
         own.Evaluate(Linkage.PoseOf(rows.Body0, _state.Poses), Linkage.PoseOf(rows.Body1, _state.Poses), _state.Values[coordinate], out Joints.ConstraintRow row);
         return motions.Select(motion => newton.Equations.Rate(joint, row, poses, motion)).ToArray();
     }
+
+    // A joint that holds nothing belongs to no block: others tell what its coordinates do.
+    private bool Holds(IndependentLinkage part, int coordinate) => Array.BinarySearch(part.Joints, _mechanism.Coordinates[coordinate].Joint) >= 0;
 
     // The angles of a ball in a loop are what is left to a rod that spins idly. A ball that couplings alone tie turns what hangs on it.
     private bool IsInABall(int coordinate, HashSet<int> looped)

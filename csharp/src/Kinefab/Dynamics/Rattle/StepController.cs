@@ -23,6 +23,9 @@ internal sealed class StepController
     // Halvings into even parts where limits and drives act: blows end the long account of energy for which the parts are even.
     private const int MaxEvenHalvings = 6;
 
+    // Halvings of a part by itself before the step is tried again in even ones from its start.
+    private const int MaxLocalDepth = 8;
+
     // Failures in a step after which parts that fail are left to implicit Euler.
     private const int MaxFailures = 48;
 
@@ -44,6 +47,9 @@ internal sealed class StepController
     private readonly PositionProjection _closure;
     private readonly Snapshot _start;
     private readonly Snapshot?[] _substepStarts = new Snapshot?[LastDepth + 1];
+
+    // Parts that failed, by the halvings that made them.
+    private readonly int[] _failedAt = new int[LastDepth + 1];
     private int _failures;
     private int _dampedInStep;
     private int _worst;
@@ -153,7 +159,7 @@ internal sealed class StepController
         _start.Save(_batch);
         Audit(dt);
         _dt = dt;
-        while (!TrySubsteps(dt, halvings, tolerance) || !IsEnergyKept(halvings, dt))
+        while (!TrySubsteps(dt, halvings, tolerance, hasSettled) || !IsEnergyKept(halvings, dt))
         {
             Return(_start, dt);
             bool wasEager = _part.IsEager;
@@ -172,10 +178,10 @@ internal sealed class StepController
                 break;
             }
 
-            halvings += wasEager ? 1 : 0;
+            halvings = HasFailedAt(MaxLocalDepth) ? MostEven : halvings + (wasEager ? 1 : 0);
         }
 
-        cut.Record(halvings, demand);
+        cut.Record(Math.Max(halvings, Needed()), demand);
         _part.SetLength(dt);
     }
 
@@ -237,13 +243,15 @@ internal sealed class StepController
         return !_isAudited || new EnergyAudit(_batch, _dt, _tolerance).IsKept(_energy, mayLose, share * (mayLose ? MostEnergyGain : MostEnergyChange));
     }
 
-    private bool TrySubsteps(double dt, int halvings, double tolerance)
+    // Where scalar rows act a part that fails is halved by itself: a blow is no reason to go over the whole step again.
+    private bool TrySubsteps(double dt, int halvings, double tolerance, bool hasSettled)
     {
         double h = dt / (1 << halvings);
-        _part.SetLength(h);
-        for (int i = 1 << halvings; i > 0; i--)
+        Array.Clear(_failedAt, 0, _failedAt.Length);
+        for (int i = 0; i < 1 << halvings; i++)
         {
-            if (!_part.TryRattle(h, tolerance))
+            int deepest = _batch.ActiveSet != null && (i > 0 || hasSettled) ? MaxLocalDepth : halvings;
+            if (!TryHalves(h, halvings, deepest, tolerance))
             {
                 return false;
             }
@@ -251,6 +259,44 @@ internal sealed class StepController
 
         return true;
     }
+
+    private bool TryHalves(double h, int depth, int deepest, double tolerance)
+    {
+        Snapshot? start = depth < deepest ? SubstepStart(depth) : null;
+        _part.SetLength(h);
+        start?.Save(_batch);
+        if (_part.TryRattle(h, tolerance))
+        {
+            return true;
+        }
+
+        _failedAt[depth]++;
+        if (start == null)
+        {
+            return false;
+        }
+
+        Return(start, h);
+        bool areSolved = TryHalves(h / 2, depth + 1, deepest, tolerance) && TryHalves(h / 2, depth + 1, deepest, tolerance);
+        _part.SetLength(h);
+        return areSolved;
+    }
+
+    // Halvings at which no part failed but some of those twice as long, each of them.
+    private int Needed()
+    {
+        int needed = 0;
+        for (int depth = 1; depth <= MaxEvenHalvings && _failedAt[depth] == 1 << depth; depth++)
+        {
+            needed = depth + 1;
+        }
+
+        return needed;
+    }
+
+    private bool HasFailedAt(int depth) => _failedAt[depth] > 0;
+
+    private Snapshot SubstepStart(int depth) => _substepStarts[depth] ??= new Snapshot(_batch);
 
     private void SubstepUntilSolved(double dt, int halvings, double tolerance)
     {
@@ -262,7 +308,7 @@ internal sealed class StepController
 
     private void Halve(double h, int depth, double tolerance)
     {
-        Snapshot start = _substepStarts[depth] ??= new Snapshot(_batch);
+        Snapshot start = SubstepStart(depth);
         _part.SetLength(h);
         start.Save(_batch);
         bool isHopeless = _dampedInStep == MaxDampedSteps;

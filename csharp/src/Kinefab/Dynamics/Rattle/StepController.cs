@@ -23,8 +23,9 @@ internal sealed class StepController
     // Halvings into even parts where limits and drives act: blows end the long account of energy for which the parts are even.
     private const int MaxEvenHalvings = 6;
 
-    // Halvings of a part by itself before the step is tried again in even ones from its start.
-    private const int MaxLocalDepth = 8;
+    // Halvings of a part by itself, and parts of a step that may fail so, before the step is tried again in even ones from its start.
+    private const int MaxLocalDepth = 9;
+    private const int MaxLocalFailures = 24;
 
     // Failures in a step after which parts that fail are left to implicit Euler.
     private const int MaxFailures = 48;
@@ -51,6 +52,9 @@ internal sealed class StepController
     // Parts that failed, by the halvings that made them.
     private readonly int[] _failedAt = new int[LastDepth + 1];
     private int _failures;
+
+    // Whether halving of parts by themselves came to its end.
+    private bool _isStuck;
     private int _dampedInStep;
     private int _worst;
     private double _worstError;
@@ -161,6 +165,7 @@ internal sealed class StepController
         _dt = dt;
         while (!TrySubsteps(dt, halvings, tolerance, hasSettled) || !IsEnergyKept(halvings, dt))
         {
+            bool hasActed = _batch.ActiveSet is { HasActed: true };
             Return(_start, dt);
             bool wasEager = _part.IsEager;
             _part.IsEager = true;
@@ -178,7 +183,7 @@ internal sealed class StepController
                 break;
             }
 
-            halvings = HasFailedAt(MaxLocalDepth) ? MostEven : halvings + (wasEager ? 1 : 0);
+            halvings = _isStuck ? MostEven : Math.Min(MostEven, halvings + (!wasEager ? 0 : hasActed ? 2 : 1));
         }
 
         cut.Record(Math.Max(halvings, Needed()), demand);
@@ -248,16 +253,16 @@ internal sealed class StepController
     {
         double h = dt / (1 << halvings);
         Array.Clear(_failedAt, 0, _failedAt.Length);
-        for (int i = 0; i < 1 << halvings; i++)
+        _isStuck = false;
+        bool areSolved = true;
+        for (int i = 0; i < 1 << halvings && areSolved; i++)
         {
             int deepest = _batch.ActiveSet != null && (i > 0 || hasSettled) ? MaxLocalDepth : halvings;
-            if (!TryHalves(h, halvings, deepest, tolerance))
-            {
-                return false;
-            }
+            areSolved = TryHalves(h, halvings, deepest, tolerance);
         }
 
-        return true;
+        _failures = 0;
+        return areSolved;
     }
 
     private bool TryHalves(double h, int depth, int deepest, double tolerance)
@@ -271,8 +276,9 @@ internal sealed class StepController
         }
 
         _failedAt[depth]++;
-        if (start == null)
+        if (start == null || ++_failures > MaxLocalFailures)
         {
+            _isStuck = deepest == MaxLocalDepth;
             return false;
         }
 
@@ -293,8 +299,6 @@ internal sealed class StepController
 
         return needed;
     }
-
-    private bool HasFailedAt(int depth) => _failedAt[depth] > 0;
 
     private Snapshot SubstepStart(int depth) => _substepStarts[depth] ??= new Snapshot(_batch);
 

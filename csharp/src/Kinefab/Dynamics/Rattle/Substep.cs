@@ -19,7 +19,7 @@ internal sealed class Substep
     private const double LeastFlight = 0.1;
 
     // Trials of which none may stand before the limit: it is passed from the start on.
-    private const int MostLate = 6;
+    private const int MostLate = 3;
 
     // A piece up to a leap is worth its cost from this share of the drift on.
     private const double LeastSure = 0.05;

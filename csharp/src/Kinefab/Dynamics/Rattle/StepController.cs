@@ -23,10 +23,6 @@ internal sealed class StepController
     // Halvings into even parts where limits and drives act: blows end the long account of energy for which the parts are even.
     private const int MaxEvenHalvings = 6;
 
-    // Halvings of a part by itself, and parts of a step that may fail so, before the step is tried again in even ones from its start.
-    private const int MaxLocalDepth = 9;
-    private const int MaxLocalFailures = 24;
-
     // Failures in a step after which parts that fail are left to implicit Euler.
     private const int MaxFailures = 48;
 
@@ -48,13 +44,7 @@ internal sealed class StepController
     private readonly PositionProjection _closure;
     private readonly Snapshot _start;
     private readonly Snapshot?[] _substepStarts = new Snapshot?[LastDepth + 1];
-
-    // Parts that failed, by the halvings that made them.
-    private readonly int[] _failedAt = new int[LastDepth + 1];
     private int _failures;
-
-    // Whether halving of parts by themselves came to its end.
-    private bool _isStuck;
     private int _dampedInStep;
     private int _worst;
     private double _worstError;
@@ -163,9 +153,8 @@ internal sealed class StepController
         _start.Save(_batch);
         Audit(dt);
         _dt = dt;
-        while (!TrySubsteps(dt, halvings, tolerance, hasSettled) || !IsEnergyKept(halvings, dt))
+        while (!TrySubsteps(dt, halvings, tolerance) || !IsEnergyKept(halvings, dt))
         {
-            bool hasActed = _batch.ActiveSet is { HasActed: true };
             Return(_start, dt);
             bool wasEager = _part.IsEager;
             _part.IsEager = true;
@@ -183,10 +172,10 @@ internal sealed class StepController
                 break;
             }
 
-            halvings = _isStuck ? MostEven : Math.Min(MostEven, halvings + (!wasEager ? 0 : hasActed ? 2 : 1));
+            halvings += wasEager ? 1 : 0;
         }
 
-        cut.Record(Math.Max(halvings, Needed()), demand);
+        cut.Record(halvings, demand);
         _part.SetLength(dt);
     }
 
@@ -248,59 +237,20 @@ internal sealed class StepController
         return !_isAudited || new EnergyAudit(_batch, _dt, _tolerance).IsKept(_energy, mayLose, share * (mayLose ? MostEnergyGain : MostEnergyChange));
     }
 
-    // Where scalar rows act a part that fails is halved by itself: a blow is no reason to go over the whole step again.
-    private bool TrySubsteps(double dt, int halvings, double tolerance, bool hasSettled)
+    private bool TrySubsteps(double dt, int halvings, double tolerance)
     {
         double h = dt / (1 << halvings);
-        Array.Clear(_failedAt, 0, _failedAt.Length);
-        _isStuck = false;
-        bool areSolved = true;
-        for (int i = 0; i < 1 << halvings && areSolved; i++)
-        {
-            int deepest = _batch.ActiveSet != null && (i > 0 || hasSettled) ? MaxLocalDepth : halvings;
-            areSolved = TryHalves(h, halvings, deepest, tolerance);
-        }
-
-        _failures = 0;
-        return areSolved;
-    }
-
-    private bool TryHalves(double h, int depth, int deepest, double tolerance)
-    {
-        Snapshot? start = depth < deepest ? SubstepStart(depth) : null;
         _part.SetLength(h);
-        start?.Save(_batch);
-        if (_part.TryRattle(h, tolerance))
+        for (int i = 1 << halvings; i > 0; i--)
         {
-            return true;
+            if (!_part.TryRattle(h, tolerance))
+            {
+                return false;
+            }
         }
 
-        _failedAt[depth]++;
-        if (start == null || ++_failures > MaxLocalFailures)
-        {
-            _isStuck = deepest == MaxLocalDepth;
-            return false;
-        }
-
-        Return(start, h);
-        bool areSolved = TryHalves(h / 2, depth + 1, deepest, tolerance) && TryHalves(h / 2, depth + 1, deepest, tolerance);
-        _part.SetLength(h);
-        return areSolved;
+        return true;
     }
-
-    // Halvings at which no part failed but some of those twice as long, each of them.
-    private int Needed()
-    {
-        int needed = 0;
-        for (int depth = 1; depth <= MaxEvenHalvings && _failedAt[depth] == 1 << depth; depth++)
-        {
-            needed = depth + 1;
-        }
-
-        return needed;
-    }
-
-    private Snapshot SubstepStart(int depth) => _substepStarts[depth] ??= new Snapshot(_batch);
 
     private void SubstepUntilSolved(double dt, int halvings, double tolerance)
     {
@@ -312,7 +262,7 @@ internal sealed class StepController
 
     private void Halve(double h, int depth, double tolerance)
     {
-        Snapshot start = SubstepStart(depth);
+        Snapshot start = _substepStarts[depth] ??= new Snapshot(_batch);
         _part.SetLength(h);
         start.Save(_batch);
         bool isHopeless = _dampedInStep == MaxDampedSteps;

@@ -129,15 +129,6 @@ internal sealed class StepControllerTests
         Assert.That(m.Bodies.AngularVelocities[0].Length, Is.Zero.Within(1e-9));
     }
 
-    /// <summary>A part that failed made the whole step be cut into 2, 4, ... 64: 45 and 111 parts a step at most.</summary>
-    [TestCase(30, 12)]
-    [TestCase(34, 50)]
-    public void Step_PartThatFails_IsHalvedByItself(int seed, int most)
-    {
-        var scene = new LimitedScene(seed);
-        Assert.That(HalvingsAfter(scene.System, scene.Step, 20).Tries, Is.LessThanOrEqualTo(most));
-    }
-
     /// <summary>
     /// Two ranges that no angle satisfies, both passed and both left or driven further by the speed: the one that its joint left was taken for apart and
     /// passed at once, and a step took 280 parts.

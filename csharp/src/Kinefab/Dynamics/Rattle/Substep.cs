@@ -114,7 +114,9 @@ internal sealed class Substep
                 return Complete(left, h, tolerance);
             }
 
-            if (!TryReach(left, passed, scalars.Row(scalars.FirstReached(left)), tolerance, out double piece) || !Complete(piece, h, tolerance))
+            // None where a pose so far off has no number for it.
+            int first = scalars.FirstReached(left);
+            if (first < 0 || !TryReach(left, passed, scalars.Row(first), tolerance, out double piece) || !Complete(piece, h, tolerance))
             {
                 return false;
             }

@@ -100,7 +100,7 @@ internal sealed class FiniteMobility
     }
 
     // What is left of a velocity, as a share of how far it was followed.
-    private double[] Probe(MechanismState state, MechanismState moved, double[] vector, double length)
+    private double[] Probe(MechanismState state, MechanismState moved, double[] vector, double length, out bool isClosed)
     {
         moved.CopyFrom(state);
         var step = new double[vector.Length];
@@ -112,12 +112,7 @@ internal sealed class FiniteMobility
         _newton.Motion.Start(moved.Poses);
         _newton.Motion.Move(moved.Poses, step);
         var left = new double[step.Length];
-        if (!_newton.Close(moved))
-        {
-            // What does not come back onto the joints has kept nothing.
-            return left;
-        }
-
+        isClosed = _newton.Close(moved);
         for (int i = 0; i < left.Length; i++)
         {
             left[i] = (step[i] + _newton.Closing[i]) / length;
@@ -135,14 +130,19 @@ internal sealed class FiniteMobility
         for (int round = 1; ; round++)
         {
             var left = new List<double[]>();
+            bool areClosed = true;
             foreach (double[] velocity in velocities)
             {
                 cancellation.ThrowIfCancellationRequested();
-                left.Add(Probe(state, moved, velocity, length));
+                double[] share = Probe(state, moved, velocity, length, out bool isClosed);
+
+                // What does not come back onto the joints may hold a motion; by itself it has kept nothing.
+                left.Add(isClosed || round < Rounds ? share : new double[share.Length]);
+                areClosed &= isClosed;
             }
 
             SingularValues values = Decomposed(left);
-            if (round == Rounds || !Array.Exists(values.Values, share => share > gone && share < Whole))
+            if (round == Rounds || (areClosed && !Array.Exists(values.Values, share => share > gone && share < Whole)))
             {
                 return values.Values;
             }

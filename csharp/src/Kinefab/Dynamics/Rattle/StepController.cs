@@ -208,7 +208,6 @@ internal sealed class StepController
         _start.Save(_batch);
         Audit(dt);
         _dt = dt;
-        bool hasLooked = false;
         while (!TrySubsteps(dt, halvings, tolerance) || !IsEnergyKept(halvings, dt))
         {
             Return(_start, dt);
@@ -223,15 +222,6 @@ internal sealed class StepController
                 Audit(dt);
             }
 
-            if (!hasLooked && IsTorn(dt, isMoved))
-            {
-                Return(_start, dt);
-                _dampedInStep = 1;
-                DampedSteps++;
-                break;
-            }
-
-            hasLooked = true;
             if (halvings >= MostEven)
             {
                 SubstepUntilSolved(dt, halvings, tolerance);
@@ -273,38 +263,6 @@ internal sealed class StepController
         _isAudited &= !(isMoved && _closure.IsOpen());
         RattleStep<ScalarLane>.Rebuild(_batch);
         InitialVelocityProjection.Apply(_batch, _exact);
-    }
-
-    // Joints that stand apart, and that closing the pose cannot bring together, are not brought together by shorter steps either.
-    private bool IsTorn(double dt, bool isMoved)
-    {
-        bool isTorn = !_batch.Shape.IsInconsistent && !HasClosed && _closure.IsOpen() && _closure.IsTorn();
-        if (isTorn && !isMoved)
-        {
-            _start.Restore(_batch);
-            HasClosed = _closure.TryClose(_tolerance);
-            isTorn = !HasClosed && _closure.IsOpen() && _closure.IsTorn();
-        }
-
-        if (!isTorn)
-        {
-            if (HasClosed && !isMoved)
-            {
-                CloseInitialState(true);
-                _start.Save(_batch);
-                Audit(dt);
-            }
-            else
-            {
-                _start.Restore(_batch);
-            }
-
-            return false;
-        }
-
-        MeasureWorstResidual(_tolerance);
-        _troubles = StepTroubles.Open;
-        return true;
     }
 
     private int MostEven => _batch.ActiveSet == null ? MaxHalvings : MaxEvenHalvings;

@@ -207,6 +207,7 @@ internal sealed class LimitedSceneTests
         return most;
     }
 
-    private static int Setting(string name, int otherwise) =>
+    /// <summary>A number of the environment.</summary>
+    public static int Setting(string name, int otherwise) =>
         int.TryParse(Environment.GetEnvironmentVariable(name), NumberStyles.Integer, CultureInfo.InvariantCulture, out int value) ? value : otherwise;
 }

@@ -152,7 +152,7 @@ internal sealed partial class ActiveSet<V>
         for (int i = 0; i < _rows.Length; i++)
         {
             ref ScalarRow scalar = ref _rows[i];
-            scalar.Kind = scalar.IsActive && scalar.Built.Has(RowFlags.Limit) && !scalar.Built.Has(RowFlags.Spring) ? RowKind.Limit : RowKind.None;
+            scalar.Kind = scalar.IsActive && IsHardLimit(scalar.Built) ? RowKind.Limit : RowKind.None;
             double error = scalar.Built.GeometricError - (keepsAllowed ? scalar.Allowed : 0);
             bool isPassed = scalar.Kind == RowKind.Limit && error < 0;
             scalar.State = isPassed ? RowState.Free : RowState.AtBound;

@@ -9,6 +9,9 @@ internal readonly struct EnergyAudit
     // Rounding of the forces' work, against its terms.
     private const double Rounding = 1e-12;
 
+    // Rounding of a body's energy of turning, against its terms.
+    private const double TurningRounding = 1e-15;
+
     // Tolerances by which a pose may be off that counts as closed: its own, its start's and what the chord leaves of other rows.
     private const double Tolerances = 10;
 
@@ -55,6 +58,7 @@ internal readonly struct EnergyAudit
             _work += work.X + work.Y + work.Z;
             _terms += Math.Abs(work.X) + Math.Abs(work.Y) + Math.Abs(work.Z);
             _forced += mass * acceleration.LengthSquared * dt * dt / 2;
+            _floor += TurningRounding * TurningTerms(a, o);
             _floor += (mass + 1 / a[o + BodyLanes.LeastInverseInertia]) * speed * speed + mass * acceleration.Length * distance;
         }
     }
@@ -70,6 +74,15 @@ internal readonly struct EnergyAudit
         }
 
         return isKnown;
+    }
+
+    // Of L W L without their signs: where a body does not turn about an axis, momentum about it leaves them nothing but rounding.
+    private static double TurningTerms(double[] a, int o)
+    {
+        Vector3d l = LaneTransfer<ScalarLane>.ReadVector(a, o + BodyLanes.L);
+        double x = Math.Abs(l.X), y = Math.Abs(l.Y), z = Math.Abs(l.Z);
+        int w = o + BodyLanes.WorldInverse;
+        return a[w] * x * x + a[w + 1] * y * y + a[w + 2] * z * z + 2 * (Math.Abs(a[w + 3]) * x * y + Math.Abs(a[w + 4]) * x * z + Math.Abs(a[w + 5]) * y * z);
     }
 
     // Each row's impulse since the start of the step at the speed that the kinematic bodies have along it, which is theirs for the whole step.
@@ -124,7 +137,7 @@ internal readonly struct EnergyAudit
     {
         double sprung = _sprung - since._sprung;
         double change = _kinetic + _stored - since._kinetic - since._stored - (_work - since._work) - sprung;
-        double rounding = Rounding * (_terms + since._terms) + _floor;
+        double rounding = Rounding * (_terms + since._terms) + Math.Max(_floor, since._floor);
         return mayLose
             ? change <= share * (since._kinetic + since._stored + Math.Abs(sprung) + _forced) + _driven + rounding
             : Math.Abs(change) <= share * (_kinetic + _forced) + rounding;

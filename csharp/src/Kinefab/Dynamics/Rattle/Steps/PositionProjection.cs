@@ -59,24 +59,6 @@ internal sealed class PositionProjection
     /// <summary>Whether the end pose stands open by more than <see cref="MostOpen"/>; the rows have to be built anew after it.</summary>
     public bool IsOpen() => !(Evaluate() <= MostOpen);
 
-    /// <summary>Whether it is joints, not limits alone, that stand open by so much, after <see cref="IsOpen"/>.</summary>
-    public bool IsTorn()
-    {
-        for (int n = 0; n < _batch.Shape.Blocks.Length; n++)
-        {
-            int first = _batch.Shape.Pattern.Rows[n];
-            for (int row = first; row < first + _batch.Shape.Blocks[n].BilateralCount; row++)
-            {
-                if (!(Math.Abs(_batch.Work.Error[row]) <= MostOpen))
-                {
-                    return true;
-                }
-            }
-        }
-
-        return false;
-    }
-
     /// <summary>
     /// Moves the bodies from their start pose to the nearest closed one, their speeds turned with them, and builds the rows
     /// there. False, with all as it was, when it is open by too little or does not close.
@@ -92,7 +74,7 @@ internal sealed class PositionProjection
 
         SaveStart();
         bool isOpen = IsOpen();
-        bool isTorn = isOpen && IsTorn();
+        bool isTorn = isOpen && AreJointsOpen();
         bool isClosed = isOpen && (Iterate(tolerance) || (isTorn && TryWithLimitsAsTheyStand(tolerance)));
         for (int body = 0; body < _batch.Shape.MovingBodies; body++)
         {
@@ -129,6 +111,24 @@ internal sealed class PositionProjection
         }
 
         return isClosed;
+    }
+
+    // After IsOpen: whether it is joints, not limits alone.
+    private bool AreJointsOpen()
+    {
+        for (int n = 0; n < _batch.Shape.Blocks.Length; n++)
+        {
+            int first = _batch.Shape.Pattern.Rows[n];
+            for (int row = first; row < first + _batch.Shape.Blocks[n].BilateralCount; row++)
+            {
+                if (!(Math.Abs(_batch.Work.Error[row]) <= MostOpen))
+                {
+                    return true;
+                }
+            }
+        }
+
+        return false;
     }
 
     // Limits that cannot be closed with the rest stay passed as far as they are: see ScalarRow.Allowed.

@@ -6,8 +6,9 @@ namespace Kinefab.Numerics;
 
 /// <summary>
 /// Minimum-degree elimination order of a symmetric sparse matrix of blocks: at each turn the node goes whose neighbours
-/// hold the fewest rows, of several the one that has been so for longest, ties by index, and its neighbours become neighbours of each other. A tree has no fill in it. A chain goes from both ends by turns: nodes one after the other in the order then seldom
-/// wait for each other's numbers, which is what a processor loses most of its time with.
+/// hold the fewest rows, and its neighbours become neighbours of each other. Of several the one goes whose number has stood for
+/// longest, ties by index: a chain is eaten from both ends by turns, and what follows each other in the order seldom has to wait
+/// for each other's numbers, which is where a processor loses its time. A tree has no fill in it.
 /// Source: Tinney and Walker 1967, scheme 2.
 /// A node may wait: its own block is too weak a pivot until a neighbour has gone and added to it, so it counts as
 /// <see cref="Patience"/> rows dearer until then. A few weak nodes around one neighbour so go after it; many, of which that

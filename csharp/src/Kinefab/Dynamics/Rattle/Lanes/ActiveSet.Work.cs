@@ -69,9 +69,7 @@ internal sealed partial class ActiveSet<V>
             if (scalar.IsActive && scalar.Built.Has(RowFlags.Spring) && scalar.Built.Stiffness > 0 && !(scalar.Built.Has(RowFlags.Limit) && c >= 0) && HasPotential(scalar))
             {
                 double k = Stiffness(scalar);
-                bool isForce = _batch.Models[scalar.Block]!.DriveLimitsAreForces || !scalar.Built.Has(RowFlags.HasDriveLimit);
-                double most = (c < 0 ? scalar.Built.Maximum : -scalar.Built.Minimum) / (isForce ? 1 : dt);
-                double yield = Math.Min(Math.Abs(c), most / Math.Max(k, ScalarRow.LeastResponse));
+                double yield = Math.Min(Math.Abs(c), MostForce(scalar, dt) / Math.Max(k, ScalarRow.LeastResponse));
                 sum += k * yield * (Math.Abs(c) - yield / 2);
             }
         }
@@ -81,13 +79,18 @@ internal sealed partial class ActiveSet<V>
 
     /// <summary>What all springs hold more at most where each is off by a distance, J.</summary>
     /// <param name="distance">m or rad.</param>
-    public double LargestStoredEnergy(double distance)
+    /// <param name="dt">Step, s.</param>
+    public double LargestStoredEnergy(double distance, double dt)
     {
         double sum = 0;
         for (int i = 0; i < _rows.Length; i++)
         {
             ref ScalarRow scalar = ref _rows[i];
-            sum += scalar.IsActive && scalar.Built.Has(RowFlags.Spring) ? Stiffness(scalar) * distance * (distance + Math.Abs(scalar.Built.GeometricError)) : 0;
+            if (scalar.IsActive && scalar.Built.Has(RowFlags.Spring))
+            {
+                double k = Stiffness(scalar);
+                sum += distance * Math.Min(MostForce(scalar, dt), k * (distance + Math.Abs(scalar.Built.GeometricError)));
+            }
         }
 
         return sum;
@@ -106,6 +109,13 @@ internal sealed partial class ActiveSet<V>
         }
 
         return sum;
+    }
+
+    // Of the way that C draws, N or N m.
+    private double MostForce(in ScalarRow scalar, double dt)
+    {
+        bool isForce = _batch.Models[scalar.Block]!.DriveLimitsAreForces || !scalar.Built.Has(RowFlags.HasDriveLimit);
+        return (scalar.Built.GeometricError < 0 ? scalar.Built.Maximum : -scalar.Built.Minimum) / (isForce ? 1 : dt);
     }
 
     // N/m or N m/rad, of an acceleration spring too; 0 where it hardly acts.

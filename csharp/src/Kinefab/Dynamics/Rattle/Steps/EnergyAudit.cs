@@ -37,7 +37,7 @@ internal readonly struct EnergyAudit
     {
         double distance = Tolerances * tolerance;
         double speed = distance / dt;
-        _floor = batch.ActiveSet?.LargestStoredEnergy(distance) ?? 0;
+        _floor = batch.ActiveSet?.LargestStoredEnergy(distance, dt) ?? 0;
         _kinetic = 0;
         _work = 0;
         _terms = 0;

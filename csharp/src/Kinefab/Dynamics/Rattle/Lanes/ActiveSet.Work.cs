@@ -111,11 +111,11 @@ internal sealed partial class ActiveSet<V>
         return sum;
     }
 
-    // Of the way that C draws, N or N m.
+    // To the side to which it draws, N or N m.
     private double MostForce(in ScalarRow scalar, double dt)
     {
         bool isForce = _batch.Models[scalar.Block]!.DriveLimitsAreForces || !scalar.Built.Has(RowFlags.HasDriveLimit);
-        return (scalar.Built.GeometricError < 0 ? scalar.Built.Maximum : -scalar.Built.Minimum) / (isForce ? 1 : dt);
+        return (scalar.Built.GeometricError < 0 || scalar.Built.Has(RowFlags.Limit) ? scalar.Built.Maximum : -scalar.Built.Minimum) / (isForce ? 1 : dt);
     }
 
     // N/m or N m/rad, of an acceleration spring too; 0 where it hardly acts.

@@ -97,7 +97,11 @@ internal sealed class RattleSolver : ISolver, IStepParts
     }
 
     /// <inheritdoc/>
-    void IStepParts.Do(int part) => _groups[part].Step(_dt, _tolerance);
+    void IStepParts.Do(int part)
+    {
+        _mechanism.Cancellation.ThrowIfCancellationRequested();
+        _groups[part].Step(_dt, _tolerance);
+    }
 
     /// <inheritdoc/>
     public void Exchange(StateTape tape)

@@ -58,8 +58,8 @@ public sealed class CancellationTests
             ("Close", token => solver.Close(Open(mechanism), token)),
             ("Drag", token => solver.Drag(mechanism.NewState(), last, Vector3d.Zero, far, token)),
             ("Branches", token => solver.Branches(mechanism.NewState(), 0, true, token)),
-            ("Step unity", token => World.Create(scene, SolverKind.Unity).Step(0.02, token)),
-            ("Step exact", token => World.Create(scene, SolverKind.Exact).Step(0.02, token)),
+            ("Step unity", token => World.Create(scene, SolverKind.Unity, CancellationToken.None).Step(0.02, token)),
+            ("Step exact", token => World.Create(scene, SolverKind.Exact, CancellationToken.None).Step(0.02, token)),
             ("CountMobility", token => mechanism.CountMobility(null, token)),
         };
         foreach ((string name, Action<CancellationToken> call) in calls)

@@ -65,6 +65,7 @@ internal sealed class LaneIslandGroup<V> : IslandGroup
             }
 
             free.Project(dt, tolerance);
+            AuditEnergy(free, i);
             for (int lane = 0; lane < free.Occupied; lane++)
             {
                 if (free.HasLeftLate(lane))
@@ -147,6 +148,7 @@ internal sealed class LaneIslandGroup<V> : IslandGroup
         resting.Begin(dt, tolerance);
         resting.Drift(dt, tolerance);
         resting.Project(dt, tolerance);
+        AuditEnergy(resting, index);
         resting.End(dt);
         bool areAll = resting.AreAllActive;
         if (areAll)
@@ -164,6 +166,28 @@ internal sealed class LaneIslandGroup<V> : IslandGroup
                 }
 
                 Forget(index, lane, false);
+            }
+        }
+    }
+
+    // Lanes whose step gained energy of nothing, or lost it without a row that takes any, leave.
+    private void AuditEnergy(LaneStep<V> step, int index)
+    {
+        for (int lane = 0; lane < step.Occupied; lane++)
+        {
+            if (!step.IsActive(lane))
+            {
+                continue;
+            }
+
+            ref EnergyLedger ledger = ref History(index, lane).Energy;
+            if (step.KeepsEnergy(lane, ledger))
+            {
+                step.Enter(lane, ref ledger);
+            }
+            else
+            {
+                step.Fail(lane);
             }
         }
     }

@@ -53,6 +53,7 @@ internal sealed class StepController
     private StepTroubles _troubles;
     private bool _isAudited;
     private EnergyAudit _energy;
+    private EnergyLedger _ledger;
     private double _dt;
     private double _elapsed;
     private double _tolerance;
@@ -134,6 +135,7 @@ internal sealed class StepController
         _dampedInStep = 0;
         _part.IsEager = false;
         _isAudited = EnergyAudit.IsKnown(_batch);
+        _ledger = cut.Energy;
         isMoved |= _batch.ActiveSet != null && _batch.ActiveSet.IsNewlyPassed();
         HasClosed = isMoved && _closure.TryClose(tolerance);
         _forbidden = isMoved && !_batch.Shape.IsInconsistent ? InitialVelocityProjection.Find(_batch, out _forbiddenSpeed) : -1;
@@ -173,6 +175,12 @@ internal sealed class StepController
             }
 
             halvings += wasEager ? 1 : 0;
+        }
+
+        if (_isAudited)
+        {
+            var end = new EnergyAudit(_batch, dt, tolerance);
+            cut.Energy.Enter(end.GainSince(_energy), end.Moving);
         }
 
         cut.Record(halvings, demand);
@@ -234,7 +242,13 @@ internal sealed class StepController
         // A gain is a part's own to mend, not that of the part after it.
         double share = EarlyShare + (1 - EarlyShare) * (_elapsed + h) / _dt;
         bool mayLose = _batch.ActiveSet is { HasActed: true } || halvings >= MostEven;
-        return !_isAudited || new EnergyAudit(_batch, _dt, _tolerance).IsKept(_energy, mayLose, share * (mayLose ? MostEnergyGain : MostEnergyChange));
+        if (!_isAudited)
+        {
+            return true;
+        }
+
+        var now = new EnergyAudit(_batch, _dt, _tolerance);
+        return now.IsKept(_energy, mayLose, share * (mayLose ? MostEnergyGain : MostEnergyChange)) && _ledger.Allows(now.GainSince(_energy), now.Moving, mayLose);
     }
 
     private bool TrySubsteps(double dt, int halvings, double tolerance)

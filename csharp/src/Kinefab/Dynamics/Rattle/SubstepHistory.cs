@@ -9,6 +9,9 @@ internal struct SubstepHistory
 
     private int _calm;
 
+    /// <summary>The island's energy.</summary>
+    public EnergyLedger Energy;
+
     public int Halvings { get; private set; }
 
     /// <summary>Takes note of a step.</summary>

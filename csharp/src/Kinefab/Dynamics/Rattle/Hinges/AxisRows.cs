@@ -34,7 +34,8 @@ internal sealed class AxisRows<V>
     private const int End = 11;
     private const int EndCosine = 12;
     private const int EndSine = 13;
-    private const int Count = 14;
+    private const int Turn = 14;
+    private const int Count = 15;
 
     // What a lane has as the row.
     private const double None = 0;
@@ -276,6 +277,34 @@ internal sealed class AxisRows<V>
         return isFree;
     }
 
+    /// <summary>Whether a lane has a row in this step.</summary>
+    public bool HasRow(int lane)
+    {
+        bool isAny = false;
+        for (int k = 0; k < _blocks.Length; k++)
+        {
+            isAny |= _numbers[Count * k * Lane<V>.Width + lane] != None;
+        }
+
+        return isAny;
+    }
+
+    /// <summary>Takes from what the lanes gained what the drives gave: a spring its impulse along the drift, a motor its own at its speed.</summary>
+    public void TakeWork(double h)
+    {
+        Lane<V> zero = Lane<V>.Splat(0);
+        for (int k = 0; k < _blocks.Length; k++)
+        {
+            Lane<V> kind = Load(k, Kind);
+            int row = RowOf(k);
+            Lane<V> first = Lane<V>.Load(_batch.Work.PositionImpulses, row);
+            Lane<V> spring = Lane<V>.Splat(-1 / (Share * h)) * first * Load(k, Turn);
+            Lane<V> motor = (first + Lane<V>.Load(_batch.VelocityImpulses, row)) * Load(k, Target);
+            Lane<V> given = Lane<V>.Select(IsSpring(kind), spring, Lane<V>.Select(IsMotor(kind), motor, zero));
+            (Lane<V>.Load(_batch.Work.Gain, 0) - given).Store(_batch.Work.Gain, 0);
+        }
+    }
+
     /// <summary>Where a step of a lane ends that kept to the lanes.</summary>
     public void Finish(int lane)
     {
@@ -482,6 +511,7 @@ internal sealed class AxisRows<V>
         Lane<V> c0 = Load(k, StartCosine), s0 = Load(k, StartSine), c1 = Load(k, Cosine), s1 = Load(k, Sine);
         Lane<V> two = Lane<V>.Splat(2);
         Lane<V> turn = two * LaneTrigonometry<V>.Atan((s1 * c0 - c1 * s0) / (Lane<V>.Splat(1) + (c1 * c0 + s1 * s0)));
+        turn.Store(_numbers, (Count * k + Turn) * Lane<V>.Width);
         Lane<V> rest = Load(k, Compliance) * Lane<V>.Load(_batch.Work.PositionImpulses, row) - Load(k, Target);
         Lane<V>.Select(Load(k, Kind), Lane<V>.Splat(h) * rest - turn, Lane<V>.Splat(0)).Store(_batch.Work.Error, row);
     }

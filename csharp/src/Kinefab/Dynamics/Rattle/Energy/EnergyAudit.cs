@@ -57,7 +57,16 @@ internal readonly struct EnergyAudit
             _forced += mass * acceleration.LengthSquared * dt * dt / 2;
             _floor += (mass + 1 / a[o + BodyLanes.LeastInverseInertia]) * speed * speed + mass * acceleration.Length * distance;
         }
+
+        Moving = _kinetic + ReadForced(batch, dt);
     }
+
+    /// <summary>What moves, J, with what forces give to what only begins to.</summary>
+    public double Moving { get; }
+
+    /// <summary>By how much energy grew since beyond what forces and springs gave and drives may have given, J.</summary>
+    public double GainSince(in EnergyAudit since) =>
+        _kinetic + _stored - since._kinetic - since._stored - (_work - since._work) - (_sprung - since._sprung) - (_driven - since._driven);
 
     /// <summary>Whether nothing does work on an island but its bodies' own constant forces, its scalar rows and kinematic bodies.</summary>
     public static bool IsKnown(LaneBatch<ScalarLane> batch)
@@ -70,6 +79,12 @@ internal readonly struct EnergyAudit
         }
 
         return isKnown;
+    }
+
+    private static double ReadForced(LaneBatch<ScalarLane> batch, double dt)
+    {
+        LaneEnergy<ScalarLane>.Forced(batch, dt).Store(batch.Work.Moving, 0);
+        return batch.Work.Moving[0];
     }
 
     // Each row's impulse since the start of the step at the speed that the kinematic bodies have along it, which is theirs for the whole step.
@@ -99,7 +114,7 @@ internal readonly struct EnergyAudit
     /// <summary>Slows the bodies down until energy has not grown since by more than drives can have given.</summary>
     public void Dampen(LaneBatch<ScalarLane> batch, in EnergyAudit since)
     {
-        double gain = _kinetic + _stored - since._kinetic - since._stored - (_work - since._work) - (_sprung - since._sprung) - (_driven - since._driven);
+        double gain = GainSince(since);
         if (!(gain > 0) || !(_kinetic > 0))
         {
             return;

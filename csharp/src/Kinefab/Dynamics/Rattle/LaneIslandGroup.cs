@@ -65,7 +65,7 @@ internal sealed class LaneIslandGroup<V> : IslandGroup
             }
 
             free.Project(dt, tolerance);
-            AuditEnergy(free, i);
+            EnterEnergies(free, i);
             for (int lane = 0; lane < free.Occupied; lane++)
             {
                 if (free.HasLeftLate(lane))
@@ -148,7 +148,7 @@ internal sealed class LaneIslandGroup<V> : IslandGroup
         resting.Begin(dt, tolerance);
         resting.Drift(dt, tolerance);
         resting.Project(dt, tolerance);
-        AuditEnergy(resting, index);
+        EnterEnergies(resting, index);
         resting.End(dt);
         bool areAll = resting.AreAllActive;
         if (areAll)
@@ -170,24 +170,13 @@ internal sealed class LaneIslandGroup<V> : IslandGroup
         }
     }
 
-    // Lanes whose step gained energy of nothing, or lost it without a row that takes any, leave.
-    private void AuditEnergy(LaneStep<V> step, int index)
+    private void EnterEnergies(LaneStep<V> step, int index)
     {
         for (int lane = 0; lane < step.Occupied; lane++)
         {
-            if (!step.IsActive(lane))
+            if (step.IsActive(lane))
             {
-                continue;
-            }
-
-            ref EnergyLedger ledger = ref History(index, lane).Energy;
-            if (step.KeepsEnergy(lane, ledger))
-            {
-                step.Enter(lane, ref ledger);
-            }
-            else
-            {
-                step.Fail(lane);
+                step.Enter(lane, ref History(index, lane).Energy);
             }
         }
     }

@@ -87,7 +87,6 @@ internal sealed class LaneStep<V>
         }
 
         LaneTransfer<V>.BeginStep(Batch);
-        LaneEnergy<V>.Kinetic(Batch).Store(Batch.Work.StartKinetic, 0);
         CoupledTurns<V>.Gather(Batch);
         if (isMoved)
         {
@@ -101,7 +100,6 @@ internal sealed class LaneStep<V>
     public void Load(LaneStep<V> from, bool[] lanes)
     {
         LaneTransfer<V>.CopyStart(from.Batch, Batch);
-        Array.Copy(from.Batch.Work.StartKinetic, Batch.Work.StartKinetic, Lane<V>.Width);
         CoupledTurns<V>.Gather(Batch);
         for (int lane = 0; lane < Lane<V>.Width; lane++)
         {
@@ -143,6 +141,7 @@ internal sealed class LaneStep<V>
             Rebuild();
         }
 
+        LaneEnergy<V>.Kinetic(Batch).Store(Batch.Work.StartKinetic, 0);
         Batch.Axes?.Clear();
         for (int lane = 0; lane < Occupied && Batch.Axes != null; lane++)
         {
@@ -197,30 +196,31 @@ internal sealed class LaneStep<V>
             _isBuilt[lane] = !_isAlone[lane] || (_isTakenOver[lane] && !_hasLeftLate[lane]);
         }
 
-        LaneTransfer<V>.EndStep(Batch);
+        RattleStep<V>.Accumulate(Batch);
         MeasureEnergy(dt);
     }
 
-    /// <summary>Whether the step of a lane, which takes part in it to its end, is one that the account of its energy allows.</summary>
-    public bool KeepsEnergy(int lane, in EnergyLedger ledger) =>
-        !IsAudited(lane) || ledger.Allows(Batch.Work.Gain[lane], Batch.Work.Moving[lane], Batch.Axes != null && Batch.Axes.HasRow(lane));
-
-    /// <summary>Puts the step of a lane into its account.</summary>
+    /// <summary>Enters the step of a lane, which has taken part in it to its end, into the account of its energy; where that does not allow it, the lane leaves.</summary>
     public void Enter(int lane, ref EnergyLedger ledger)
     {
-        if (IsAudited(lane))
+        if (!LaneEnergy<V>.IsKnown(Batch, lane))
         {
-            ledger.Enter(Batch.Work.Gain[lane], Batch.Work.Moving[lane]);
+            return;
         }
-    }
 
-    /// <summary>The step was too coarse for a lane.</summary>
-    public void Fail(int lane)
-    {
+        double gain = Batch.Work.Gain[lane];
+        double moving = Batch.Work.Moving[lane];
+        bool mayLose = Batch.Shape.HasKinematic || (Batch.Axes != null && Batch.Axes.HasRow(lane));
+        if (ledger.Allows(gain, moving, mayLose))
+        {
+            LaneEnergy<V>.Take(Batch, lane, ledger.Enter(gain, moving, mayLose), Batch.Work.Kinetic[lane]);
+            return;
+        }
+
         _isAlone[lane] = true;
-        _hasFailed[lane] = true;
-        _hasLeftLate[lane] = true;
         _isBuilt[lane] = false;
+        _hasLeftLate[lane] = true;
+        _hasFailed[lane] = true;
     }
 
     /// <summary>What the lanes that take part have come to, back to the world.</summary>
@@ -239,7 +239,7 @@ internal sealed class LaneStep<V>
 
         RattleStep<V>.Accept(Batch);
         GeometricStiffness<V>.Estimate(Batch, Batch.VelocityImpulses, dt / 2);
-        RattleStep<V>.Accumulate(Batch);
+        LaneTransfer<V>.EndStep(Batch);
         LaneTransfer<V>.Scatter(Batch, Occupied, _mechanism);
         Reactions<V>.Report(Batch, Occupied, _mechanism, dt);
         for (int lane = 0; lane < Occupied; lane++)
@@ -280,22 +280,12 @@ internal sealed class LaneStep<V>
     {
         Workspace<V> work = Batch.Work;
         Lane<V> kinetic = LaneEnergy<V>.Kinetic(Batch);
-        (kinetic + LaneEnergy<V>.Forced(Batch, dt)).Store(work.Moving, 0);
-        (kinetic - Lane<V>.Load(work.StartKinetic, 0) - LaneEnergy<V>.Work(Batch)).Store(work.Gain, 0);
-        Batch.Axes?.TakeWork(dt);
-    }
-
-    // Whether all that does work in a lane is known.
-    private bool IsAudited(int lane)
-    {
-        bool isKnown = !Batch.Shape.IsInconsistent && !Batch.Shape.HasKinematic;
-        for (int body = 0; body < Batch.Shape.MovingBodies && isKnown; body++)
-        {
-            int o = LaneBatch<V>.Body(body, BodyLanes.Torque) + lane;
-            isKnown = Batch.Bodies[o] == 0 && Batch.Bodies[o + Lane<V>.Width] == 0 && Batch.Bodies[o + 2 * Lane<V>.Width] == 0;
-        }
-
-        return isKnown;
+        Lane<V> given = LaneEnergy<V>.Work(Batch);
+        given = Batch.Axes == null ? given : given + Batch.Axes.Work(dt);
+        given = Batch.Shape.HasKinematic ? given + LaneEnergy<V>.KinematicWorkBound(Batch) : given;
+        kinetic.Store(work.Kinetic, 0);
+        (kinetic + LaneEnergy<V>.FirstWork(Batch, dt)).Store(work.Moving, 0);
+        (kinetic - Lane<V>.Load(work.StartKinetic, 0) - given).Store(work.Gain, 0);
     }
 
     private void Rebuild()

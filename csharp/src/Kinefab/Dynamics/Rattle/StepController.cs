@@ -134,7 +134,7 @@ internal sealed class StepController
         _elapsed = 0;
         _dampedInStep = 0;
         _part.IsEager = false;
-        _isAudited = EnergyAudit.IsKnown(_batch);
+        _isAudited = LaneEnergy<ScalarLane>.IsKnown(_batch, 0);
         _ledger = cut.Energy;
         isMoved |= _batch.ActiveSet != null && _batch.ActiveSet.IsNewlyPassed();
         HasClosed = isMoved && _closure.TryClose(tolerance);
@@ -177,12 +177,7 @@ internal sealed class StepController
             halvings += wasEager ? 1 : 0;
         }
 
-        if (_isAudited)
-        {
-            var end = new EnergyAudit(_batch, dt, tolerance);
-            cut.Energy.Enter(end.GainSince(_energy), end.Moving);
-        }
-
+        Enter(ref cut.Energy);
         cut.Record(halvings, demand);
         _part.SetLength(dt);
     }
@@ -204,6 +199,17 @@ internal sealed class StepController
             _energy = new EnergyAudit(_batch, dt, _tolerance);
         }
     }
+
+    private void Enter(ref EnergyLedger ledger)
+    {
+        if (_isAudited)
+        {
+            var end = new EnergyAudit(_batch, _dt, _tolerance);
+            LaneEnergy<ScalarLane>.Take(_batch, 0, ledger.Enter(end.GainSince(_energy), end.Moving, MayLose), end.Kinetic);
+        }
+    }
+
+    private bool MayLose => _batch.Shape.HasKinematic || _batch.ActiveSet is { HasActed: true };
 
     private static JointModel? JointOf(Island island, int row)
     {
@@ -241,7 +247,7 @@ internal sealed class StepController
     {
         // A gain is a part's own to mend, not that of the part after it.
         double share = EarlyShare + (1 - EarlyShare) * (_elapsed + h) / _dt;
-        bool mayLose = _batch.ActiveSet is { HasActed: true } || halvings >= MostEven;
+        bool mayLose = MayLose || halvings >= MostEven;
         if (!_isAudited)
         {
             return true;

@@ -289,20 +289,20 @@ internal sealed class AxisRows<V>
         return isAny;
     }
 
-    /// <summary>Takes from what the lanes gained what the drives gave: a spring its impulse along the drift, a motor its own at its speed.</summary>
-    public void TakeWork(double h)
+    /// <summary>What the drives gave in the step: a spring its impulse along the drift, a motor its own at its speed, J.</summary>
+    public Lane<V> Work(double h)
     {
         Lane<V> zero = Lane<V>.Splat(0);
+        Lane<V> sum = zero;
         for (int k = 0; k < _blocks.Length; k++)
         {
             Lane<V> kind = Load(k, Kind);
-            int row = RowOf(k);
-            Lane<V> first = Lane<V>.Load(_batch.Work.PositionImpulses, row);
-            Lane<V> spring = Lane<V>.Splat(-1 / (Share * h)) * first * Load(k, Turn);
-            Lane<V> motor = (first + Lane<V>.Load(_batch.VelocityImpulses, row)) * Load(k, Target);
-            Lane<V> given = Lane<V>.Select(IsSpring(kind), spring, Lane<V>.Select(IsMotor(kind), motor, zero));
-            (Lane<V>.Load(_batch.Work.Gain, 0) - given).Store(_batch.Work.Gain, 0);
+            Lane<V> spring = Lane<V>.Splat(-1 / (Share * h)) * Lane<V>.Load(_batch.Work.PositionImpulses, RowOf(k)) * Load(k, Turn);
+            Lane<V> motor = Lane<V>.Load(_batch.Work.TotalImpulses, RowOf(k)) * Load(k, Target);
+            sum += Lane<V>.Select(IsSpring(kind), spring, Lane<V>.Select(IsMotor(kind), motor, zero));
         }
+
+        return sum;
     }
 
     /// <summary>Where a step of a lane ends that kept to the lanes.</summary>

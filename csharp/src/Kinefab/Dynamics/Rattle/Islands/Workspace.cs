@@ -43,8 +43,9 @@ internal sealed class Workspace<V>
         FirstMaxError = new double[w];
         Fastest = new double[w];
         StartKinetic = new double[w];
-        Gain = new double[w];
+        Kinetic = new double[w];
         Moving = new double[w];
+        Gain = new double[w];
         Leftover = new double[w];
         Reaction = new double[6 * w];
         Rows = shape.HasAssembledRows ? new ConstraintRow[JointModel.MaxRows] : Array.Empty<ConstraintRow>();
@@ -111,13 +112,15 @@ internal sealed class Workspace<V>
     /// <summary>Largest angular speed of each lane's moving bodies at the start of the step, rad/s.</summary>
     public double[] Fastest { get; }
 
-    /// <summary>Kinetic energy at the start of the step, J.</summary>
+    /// <summary>Kinetic energy of each lane at the start of the step and at its end, J.</summary>
     public double[] StartKinetic { get; }
 
-    /// <summary>Of each lane's step, what it gained in energy beyond what it was given, and the energy that moves at its end, J.</summary>
-    public double[] Gain { get; }
+    public double[] Kinetic { get; }
 
+    /// <summary>The energy that moves at its end, and what came of nothing in it, as <see cref="EnergyLedger"/> asks for, J.</summary>
     public double[] Moving { get; }
+
+    public double[] Gain { get; }
 
     /// <summary>What the projection leaves, see <see cref="VelocityProjection{V}"/>.</summary>
     public double[] Leftover { get; }

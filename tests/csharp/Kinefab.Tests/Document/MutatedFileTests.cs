@@ -1,12 +1,10 @@
 using System;
 using System.Buffers.Binary;
 using System.Collections.Generic;
-using System.Globalization;
 using System.IO;
 using System.Linq;
 using System.Text;
 using System.Text.Json;
-using System.Text.RegularExpressions;
 using Kinefab.Document;
 using Kinefab.Tests.Conformance;
 using Kinefab.Validation;
@@ -20,27 +18,9 @@ namespace Kinefab.Tests.Document;
 /// </summary>
 public class MutatedFileTests
 {
-    private static readonly string[] Tokens =
-    [
-        "0", "-1", "1", "2", "7", "0.5", "-0", "1e-400", "1e39", "1e400", "2147483648", "-2147483649", "9007199254740993", "null", "true", "false",
-        "\"\"", "\"x\"", "\"site\"", "\"angle\"", "[]", "{}", "[0]", "[0, 0, 0]", "[0, 0, 0, 1]", "[1, 1, 1, 1]",
-    ];
+    private static readonly byte[][] Packed = SceneMutants.Scenes.Where(scene => scene.Document.Buffers.Count <= 1).Select(scene => Bytes(scene.Document with { Container = SceneContainer.Binary })).ToArray();
 
-    private static readonly Regex Token = new("\"(?:[^\"\\\\]|\\\\.)*\"(?!\\s*:)|-?\\d+(?:\\.\\d+)?(?:[eE][-+]?\\d+)?|true|false", RegexOptions.Compiled);
-
-    private static readonly (string Text, SceneDocument Document)[] Scenes = ConformanceCases.All
-        .Where(entry => entry.Kind == "scene" && entry.Path.StartsWith("valid/", StringComparison.Ordinal) && !entry.Path.StartsWith("valid/container/", StringComparison.Ordinal))
-        .Select(entry => (File.ReadAllText(entry.FullPath), SceneFile.Load(entry.FullPath).Document!))
-        .ToArray();
-
-    private static readonly Dictionary<string, byte[]> Buffers = ConformanceCases.All
-        .Where(entry => entry.Kind == "scene").Select(entry => Path.GetDirectoryName(entry.FullPath)!).Distinct()
-        .SelectMany(folder => Directory.GetFiles(folder, "*.bin")).GroupBy(file => Path.GetFileName(file))
-        .ToDictionary(files => files.Key, files => File.ReadAllBytes(files.First()));
-
-    private static readonly byte[][] Packed = Scenes.Where(scene => scene.Document.Buffers.Count <= 1).Select(scene => Bytes(scene.Document with { Container = SceneContainer.Binary })).ToArray();
-
-    private static int Count => int.TryParse(Environment.GetEnvironmentVariable("KINEFAB_MUTANTS"), NumberStyles.None, CultureInfo.InvariantCulture, out int count) ? count / 2 : 1500;
+    private static int Count => SceneMutants.Count(3000) / 2;
 
     [Test]
     public void Parse_Texts_AreAReportOrTheSceneThatTheySay()
@@ -48,7 +28,7 @@ public class MutatedFileTests
         int valid = 0;
         for (int seed = 0; seed < Count; seed++)
         {
-            byte[] text = Encoding.UTF8.GetBytes(Mutated(new Random(seed)));
+            byte[] text = Encoding.UTF8.GetBytes(SceneMutants.Text(new Random(seed)));
             valid += Holds(text, text, $"seed {seed}") ? 1 : 0;
         }
 
@@ -76,7 +56,7 @@ public class MutatedFileTests
                         BinaryPrimitives.WriteInt32LittleEndian(file.AsSpan(8), file.Length);
                     break;
                 default:
-                    file = WithText(file, length, Replaced(Encoding.UTF8.GetString(file, 20, length).TrimEnd(' '), random));
+                    file = WithText(file, length, SceneMutants.Replaced(Encoding.UTF8.GetString(file, 20, length).TrimEnd(' '), random));
                     break;
             }
 
@@ -85,46 +65,6 @@ public class MutatedFileTests
         }
 
         Assert.That(valid, Is.GreaterThan(Count / 40), "some are scenes still, or nothing is compared");
-    }
-
-    private static string Mutated(Random random)
-    {
-        string text = Scenes[random.Next(Scenes.Length)].Text;
-        switch (random.Next(4))
-        {
-            case 0:
-                char[] letters = text.ToCharArray();
-                for (int fault = random.Next(1, 4); fault > 0; fault--)
-                    letters[random.Next(letters.Length)] = "{}[]\",:\\0123456789-+eE.tfn \n\0u\u00e9"[random.Next(31)];
-                return new string(letters);
-            case 1:
-                List<string> lines = [.. text.Split('\n')];
-                int line = random.Next(lines.Count);
-                if (random.Next(2) == 0)
-                    lines.RemoveAt(line);
-                else
-                    lines.Insert(random.Next(lines.Count), lines[line]);
-                return string.Join('\n', lines);
-            default:
-                return Replaced(text, random);
-        }
-    }
-
-    // One to three values, by ones of this scene, of another or by such as are likely to be wrong.
-    private static string Replaced(string text, Random random)
-    {
-        for (int fault = random.Next(1, 4); fault > 0; fault--)
-        {
-            MatchCollection found = Token.Matches(text);
-            if (found.Count == 0)
-                return text;
-            Match at = found[random.Next(found.Count)];
-            MatchCollection others = random.Next(2) == 0 ? found : Token.Matches(Scenes[random.Next(Scenes.Length)].Text);
-            string with = random.Next(2) == 0 || others.Count == 0 ? Tokens[random.Next(Tokens.Length)] : others[random.Next(others.Count)].Value;
-            text = string.Concat(text.AsSpan(0, at.Index), with, text.AsSpan(at.Index + at.Length));
-        }
-
-        return text;
     }
 
     private static byte[] WithText(byte[] file, int length, string text)
@@ -140,7 +80,7 @@ public class MutatedFileTests
     // Whether it is a valid scene; then also what it says.
     private static bool Holds(byte[] file, byte[] text, string which)
     {
-        SceneReading reading = SceneFile.Parse(file, uri => Buffers.TryGetValue(uri, out byte[]? bytes) ? bytes : new byte[72]);
+        SceneReading reading = SceneFile.Parse(file, uri => SceneMutants.Buffers.TryGetValue(uri, out byte[]? bytes) ? bytes : new byte[72]);
         if (reading.Document is null)
         {
             Assert.That(reading.Report.HasErrors, which);

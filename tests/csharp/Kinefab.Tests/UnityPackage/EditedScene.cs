@@ -1,6 +1,7 @@
 using System;
 using System.IO;
 using System.Linq;
+using System.Text.Json;
 using System.Text.Json.Nodes;
 using Kinefab.Tests.Conformance;
 
@@ -25,7 +26,7 @@ internal sealed class EditedScene : IDisposable
 
     public JsonArray Objects => Json["gameObjects"]!.AsArray();
 
-    public string Scene => Path.Combine(folder, "lever.kinefab").Replace('\\', '/');
+    public string Scene => Path.Combine(folder, "scene.kinefab").Replace('\\', '/');
 
     public string Folder => folder;
 
@@ -47,18 +48,8 @@ internal sealed class EditedScene : IDisposable
         var to = new int[count];
         for (int i = 0; i < count; i++)
             to[order[i]] = i;
+        Renumber(Json, to);
         JsonNode[] all = [.. Objects.Select(o => o!.DeepClone())];
-        foreach (JsonNode entry in all)
-        {
-            if (entry["parent"] is JsonNode parent)
-                entry["parent"] = to[(int)parent];
-            foreach (JsonNode? component in entry["components"]?.AsArray() ?? [])
-            {
-                if (component!["connectedBody"] is JsonNode other)
-                    component["connectedBody"] = to[(int)other];
-            }
-        }
-
         Json["gameObjects"] = new JsonArray([.. order.Select(i => all[i])]);
         foreach (string aside in new[] { "analysis", "constraints" })
             Json.Remove(aside);
@@ -66,6 +57,28 @@ internal sealed class EditedScene : IDisposable
     }
 
     public void Dispose() => Directory.Delete(folder, recursive: true);
+
+    // Indices of objects stand under these names; a and b are numbers in ignoredCollisions only, in couplings objects.
+    private static void Renumber(JsonNode? at, int[] to)
+    {
+        switch (at)
+        {
+            case JsonArray list:
+                foreach (JsonNode? item in list)
+                    Renumber(item, to);
+                break;
+            case JsonObject entry:
+                foreach ((string name, JsonNode? value) in entry.ToArray())
+                {
+                    if (name is "parent" or "connectedBody" or "gameObject" or "a" or "b" && value?.GetValueKind() == JsonValueKind.Number)
+                        entry[name] = to[(int)value!];
+                    else if (name is not ("analysis" or "constraints"))
+                        Renumber(value, to);
+                }
+
+                break;
+        }
+    }
 
     private int Depth(int index) => Objects[index]!["parent"] is JsonNode parent ? 1 + Depth((int)parent) : 0;
 }

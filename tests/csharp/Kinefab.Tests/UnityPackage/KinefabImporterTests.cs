@@ -32,12 +32,13 @@ public sealed class KinefabImporterTests
     }
 
     // Unity finds a sub-asset again by class and identifier, an object by the names above it.
-    [Test]
-    public void Import_OfReorderedObjects_HasTheSameIdentities()
+    [TestCaseSource(typeof(PlayedMechanism), nameof(PlayedMechanism.Scenes))]
+    public void Import_OfReorderedObjects_HasTheSameIdentities(string path)
     {
-        using var scene = new EditedScene();
+        using var scene = new EditedScene(path);
         HashSet<string> before = References(ImportedAsset.Of(scene.Scene));
-        scene.Reorder(i => -i);
+        var random = new Random(path.Length);
+        scene.Reorder(_ => random.Next());
         Assert.That(References(ImportedAsset.Of(scene.Scene)), Is.EquivalentTo(before));
     }
 
@@ -70,6 +71,28 @@ public sealed class KinefabImporterTests
     }
 
     // Unity's own rule: an object is its path of names, so that a renamed one is another; all else stays.
+    // What a second export may do at once: some parts gone, some more, all in another order. Nobody else's references change.
+    [TestCaseSource(typeof(PlayedMechanism), nameof(PlayedMechanism.Scenes))]
+    public void Import_OfASecondExport_KeepsWhatIsStillThere(string path)
+    {
+        using var scene = new EditedScene(path);
+        var random = new Random(path.Length);
+        for (int i = 0; i < 3; i++)
+        {
+            var more = new JsonObject { ["id"] = $"more {i}", ["name"] = $"More {i}", ["parent"] = random.Next(scene.Objects.Count) };
+            scene.Objects.Add(more);
+        }
+
+        scene.Save();
+        HashSet<string> before = References(ImportedAsset.Of(scene.Scene));
+        scene.Objects.RemoveAt(scene.Objects.Count - 1);
+        scene.Objects.Add(new JsonObject { ["id"] = "another", ["name"] = "Another", ["parent"] = random.Next(scene.Objects.Count - 2) });
+        scene.Reorder(_ => random.Next());
+        HashSet<string> after = References(ImportedAsset.Of(scene.Scene));
+        Assert.That(before.Except(after), Is.All.Contains("/More 2").And.Not.Empty);
+        Assert.That(after.Except(before), Is.All.Contains("/Another").And.Not.Empty);
+    }
+
     [Test]
     public void Import_OfARenamedObject_KeepsMeshesMaterialsAndTheOthers()
     {

@@ -1,9 +1,11 @@
 using System.Collections.Generic;
 using System.IO;
 using System.Linq;
+using System.Runtime.Loader;
 using Kinefab.Tests.Conformance;
 using Microsoft.CodeAnalysis;
 using Microsoft.CodeAnalysis.CSharp;
+using NUnit.Framework;
 
 namespace Kinefab.Tests.UnityPackage;
 
@@ -34,13 +36,27 @@ internal static class UnityEditors
         return CSharpCompilation.Create("Kinefab.Unity", trees, References(), new CSharpCompilationOptions(OutputKind.DynamicallyLinkedLibrary));
     }
 
+    /// <summary>What <c>Play.Run(argument)</c> of a script returns in a built player of an editor.</summary>
+    public static string Run(string editor, string script, string argument, params string[] more)
+    {
+        CSharpCompilation all = Compile(editor, isEditor: false, more);
+        all = all.AddSyntaxTrees(CSharpSyntaxTree.ParseText(script, (CSharpParseOptions)all.SyntaxTrees[0].Options));
+        using var image = new MemoryStream();
+        Assert.That(all.Emit(image).Diagnostics.Where(d => d.Severity == DiagnosticSeverity.Error).Select(d => d.ToString()), Is.Empty);
+        image.Position = 0;
+        var context = new AssemblyLoadContext($"player of {editor}", isCollectible: true);
+        string told = (string)context.LoadFromStream(image).GetType("Play")!.GetMethod("Run")!.Invoke(null, [argument])!;
+        context.Unload();
+        return told;
+    }
+
     /// <summary>The package's own tests too, which Unity's runner runs.</summary>
     public static CSharpCompilation CompileTests(string editor)
     {
         CSharpCompilation all = Compile(editor, isEditor: true, "ENABLE_LEGACY_INPUT_MANAGER", "UNITY_INCLUDE_TESTS");
         var options = (CSharpParseOptions)all.SyntaxTrees[0].Options;
         return all.AddSyntaxTrees(Sources(Package("Tests")).Select(path => CSharpSyntaxTree.ParseText(File.ReadAllText(path), options, path)))
-            .AddReferences(MetadataReference.CreateFromFile(typeof(global::NUnit.Framework.TestAttribute).Assembly.Location));
+            .AddReferences(MetadataReference.CreateFromFile(typeof(TestAttribute).Assembly.Location));
     }
 
     /// <summary>A project's assemblies, each as its asmdef has it: the package, the script that prefabs bring along, and what the user writes against them.</summary>

@@ -17,6 +17,15 @@ namespace UnityEngine
     {
         private const BindingFlags Own = BindingFlags.Instance | BindingFlags.Public | BindingFlags.NonPublic | BindingFlags.DeclaredOnly;
 
+        // Of the engine's components: what it takes from scripts and saves in no scene and no prefab.
+        private static readonly HashSet<string> Unsaved = new HashSet<string>
+        {
+            "maxAngularVelocity", "maxJointVelocity", "solverIterations", "solverVelocityIterations",
+#if !UNITY_2022_2_OR_NEWER
+            "centerOfMass", "inertiaTensor", "inertiaTensorRotation",
+#endif
+        };
+
         internal static bool IsCopying { get; private set; }
 
         /// <summary>Of an object: with all below it, references inside it turned to the copies.</summary>
@@ -133,7 +142,8 @@ namespace UnityEngine
                 foreach (FieldInfo field in Fields(pair.Key.GetType(), pair.Key is Component ? typeof(Component) : typeof(Object)))
                 {
                     bool isEngines = field.DeclaringType.Namespace?.StartsWith("UnityEngine", StringComparison.Ordinal) == true;
-                    if (field.DeclaringType == typeof(MonoBehaviour) || (isScript && !isEngines && !IsSerialized(field)))
+                    bool isUnsaved = isEngines && Unsaved.Contains(field.Name.TrimStart('_', '<').Replace(">k__BackingField", ""));
+                    if (field.DeclaringType == typeof(MonoBehaviour) || isUnsaved || (isScript && !isEngines && !IsSerialized(field)))
                     {
                         continue;
                     }

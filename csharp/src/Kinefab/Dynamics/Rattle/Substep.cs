@@ -12,7 +12,17 @@ internal sealed class Substep
     // Blows in a part, after which the rest of it is taken at once, limits held from its start on, as where a body rattles in a gap.
     private const int MaxBlows = 12;
 
-    private const int MaxTrials = 40;
+    private const int MaxTrials = 16;
+
+    // Of a part: a limit that is struck again within less is at rest from then on. What it was thrown up by is the square of that share of what a
+    // body falls in the part, over 8.
+    private const double LeastFlight = 0.1;
+
+    // Trials of which none may stand before the limit: it is passed from the start on.
+    private const int MostLate = 6;
+
+    // A piece up to a leap is worth its cost from this share of the drift on.
+    private const double LeastSure = 0.05;
 
     /// <summary>C of a limit, in tolerances below 0, down to which a drift has reached it and not passed it.</summary>
     public const double MostPassed = 1;
@@ -20,11 +30,11 @@ internal sealed class Substep
     // And up to which above 0.
     private const double MostShort = 5;
 
+    // Tolerances by which an angle of an exact loop may stay open.
+    private const double MostLeftOpen = 100;
+
     // A piece shorter than this share of the part says little of the impulses of the rest.
     private const double LeastTelling = 0.25;
-
-    // Where a limit is passed within this share of a part, the pose was not what the drift began from.
-    private const double LeastPiece = 1e-12;
 
     private readonly LaneBatch<ScalarLane> _batch;
     private readonly ImplicitEulerStep _implicit;
@@ -84,6 +94,7 @@ internal sealed class Substep
         }
 
         SetLength(h);
+        scalars.BeginPart();
         double left = h;
         for (int blows = 0; ; blows++)
         {
@@ -97,13 +108,13 @@ internal sealed class Substep
                 return false;
             }
 
-            double nearest = scalars.NearestApart();
+            double nearest = scalars.NearestApart(out int first);
             if (nearest >= -MostPassed * tolerance)
             {
                 return Complete(left, h, tolerance);
             }
 
-            if (!TryReach(left, nearest, tolerance, out double piece) || !Complete(piece, h, tolerance))
+            if (!TryReach(left, scalars.Row(first), tolerance, out double piece) || !Complete(piece, h, tolerance))
             {
                 return false;
             }
@@ -145,10 +156,11 @@ internal sealed class Substep
         return IsFinite();
     }
 
-    // A guess can be worse than none: a damper's impulse, or what came before a blow, told of another motion.
+    // A guess can be worse than none: a damper's impulse, or what came before a blow, told of another motion. A loop that can be closed is: what
+    // its angles are left open by, a later part, of another matrix, closes with the speed of that gap over its own length.
     private bool TryDriftFromPieceStart(double h, double tolerance)
     {
-        if (TryDrift(h, tolerance))
+        if (TryDrift(h, tolerance) && !(IsExact && _batch.Work.MaxError[0] > MostLeftOpen * tolerance))
         {
             return true;
         }
@@ -202,27 +214,17 @@ internal sealed class Substep
         return IsFinite();
     }
 
-    // The drift as long as leads to the first limit on its way: the least C of those that are apart, by the Illinois rule of false position
-    // with a bisection whenever three trials have not halved the bracket.
-    private bool TryReach(double longest, double passed, double tolerance, out double piece)
+    // The drift as long as leads to the first limit on its way: the least C of those that are apart, by Chandrupatla's rule, which takes the inverse
+    // parabola through the last three lengths where it may be trusted and halves the bracket elsewhere. Source: Chandrupatla 1997.
+    private bool TryReach(double longest, ScalarRow first, double tolerance, out double piece)
     {
-        double early = 0;
-        double late = longest;
-        double before = _batch.ActiveSet!.NearestApartAtStart(longest);
-        before = double.IsInfinity(before) ? -passed : before;
-        double after = passed;
-        int side = 0;
-        double bracket = longest;
+        double aim = (MostShort - MostPassed) / 2 * tolerance;
+        double passed = first.End.GeometricError;
+        double before = first.IsActive ? Math.Max(first.StartError, Math.Max(first.StartSpeed * longest, tolerance)) : -passed;
+        var bracket = new RootBracket(0, before, longest, passed - aim, first.ReachedAt(longest));
         for (int trial = 0; trial < MaxTrials; trial++)
         {
-            bool isSlow = trial % 3 == 2 && late - early > bracket / 2;
-            bracket = trial % 3 == 2 ? late - early : bracket;
-            piece = isSlow ? (early + late) / 2 : early + (late - early) * (before / (before - after));
-            if (!(piece > early && piece < late) || late < LeastPiece * longest)
-            {
-                break;
-            }
-
+            piece = bracket.Next();
             _pieceStart.Restore(_batch);
             Begin(_guessLength);
             SetLength(piece);
@@ -231,31 +233,32 @@ internal sealed class Substep
                 return false;
             }
 
-            double nearest = _batch.ActiveSet.NearestApart();
+            double nearest = _batch.ActiveSet!.NearestApart();
             if (nearest >= -MostPassed * tolerance && nearest <= MostShort * tolerance)
             {
                 // A limit that nothing was seen to leave is one that turns with the body: the drift is too long for its J.
-                return early > 0 || !_batch.ActiveSet.HasLeft();
+                return bracket.Early > 0 || !_batch.ActiveSet.HasLeft();
             }
 
-            if (nearest < 0)
+            bracket.Add(piece, nearest - aim);
+            if (bracket.Early == 0 && trial >= MostLate)
             {
-                late = piece;
-                after = nearest;
-                before = side < 0 ? before / 2 : before;
-                side = -1;
-            }
-            else
-            {
-                early = piece;
-                before = double.IsInfinity(nearest) ? before : nearest;
-                after = side > 0 ? after / 2 : after;
-                side = 1;
+                break;
             }
         }
 
-        piece = 0;
-        return false;
+        // The drift leaps over the limit from one length to the next, as where a spring that is too stiff for it gives way: as far as it is sure it
+        // is a piece without a blow.
+        piece = bracket.Early;
+        if (!(piece > LeastSure * longest))
+        {
+            return false;
+        }
+
+        _pieceStart.Restore(_batch);
+        Begin(_guessLength);
+        SetLength(piece);
+        return TryDriftFromPieceStart(piece, tolerance) && !(_batch.ActiveSet!.NearestApart() < 0);
     }
 
     // Ends a piece of a part whose drift has arrived.
@@ -279,7 +282,7 @@ internal sealed class Substep
             _guessLength = h;
         }
 
-        if (VelocityProjection<ScalarLane>.Strike(_batch, tolerance, _exact))
+        if (VelocityProjection<ScalarLane>.Strike(_batch, h, LeastFlight * part, tolerance, _exact))
         {
             Accumulate(_batch.VelocityImpulses);
         }

@@ -13,6 +13,7 @@ namespace KinefabUnity
 
         internal static void Set(Rigidbody to, Doc.Rigidbody from, Doc.Physics project, Placement placement)
         {
+            (float, int, int) ofNew = KinefabBody.Unsaved(to);
             to.mass = (float)from.Mass;
 #if UNITY_6000_0_OR_NEWER
             to.linearDamping = (float)from.LinearDamping;
@@ -41,10 +42,12 @@ namespace KinefabUnity
 
             // After the inertia, since Unity freezes a rotation by changing it.
             to.constraints = (RigidbodyConstraints)from.Constraints;
+            KinefabBody.Keep(to, ofNew);
         }
 
         internal static void Set(ArticulationBody to, Doc.ArticulationBody from, Doc.Physics project, Placement placement, bool isRoot)
         {
+            (float, int, int) ofNew = KinefabBody.Unsaved(to);
             to.mass = (float)from.Mass;
             to.jointType = (ArticulationJointType)from.JointType;
 
@@ -94,6 +97,7 @@ namespace KinefabUnity
             to.collisionDetectionMode = (CollisionDetectionMode)from.CollisionDetectionMode;
             to.solverIterations = from.SolverIterations ?? project.SolverIterations;
             to.solverVelocityIterations = from.SolverVelocityIterations ?? project.SolverVelocityIterations;
+            KinefabBody.Keep(to, ofNew);
         }
 
         /// <summary>

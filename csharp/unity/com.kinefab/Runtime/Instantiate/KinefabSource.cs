@@ -104,6 +104,7 @@ namespace KinefabUnity
                 Buffers = new Doc.SceneBuffer[0],
                 Meshes = new Doc.Mesh[0],
                 Materials = new Doc.Material[0],
+                Images = new Doc.Image[0],
                 Animations = new Doc.AnimationClip[0],
                 GameObjects = objects,
             };

@@ -95,7 +95,7 @@ internal sealed class StepControllerTests
             last = bar;
         }
 
-        (int halvings, double demand) = HalvingsAfter(b.Build(), 1.0 / 60, 40);
+        (int halvings, double demand, _) = HalvingsAfter(b.Build(), 1.0 / 60, 40);
         Assert.That(demand, Is.GreaterThan(1));
         Assert.That(1 << halvings, Is.LessThan(2 * demand));
     }
@@ -113,6 +113,20 @@ internal sealed class StepControllerTests
         }
 
         Assert.That(HalvingsAfter(b.Build(), 1.0 / 60, 60).Halvings, Is.LessThanOrEqualTo(1));
+    }
+
+    /// <summary>Bounces without end, each shorter than the one before, would fill the first step after a lever has come to its stop with parts.</summary>
+    [Test]
+    public void Step_BouncesThatDieOut_ComeToRest()
+    {
+        var b = new MechanismBuilder();
+        int lever = b.Bar(Vector3d.Zero, Vector3d.UnitX, 1);
+        RevoluteJoint hinge = b.Hinge(JointModel.World, lever, Vector3d.Zero, Vector3d.UnitZ);
+        hinge.LimitEnabled = true;
+        hinge.Limit = new AngularLimit { Lower = -0.02, Upper = 1, Response = new LimitResponse { Restitution = 0.75 } };
+        MultibodySystem m = b.Build();
+        Assert.That(HalvingsAfter(m, 1.0 / 60, 60).Tries, Is.LessThanOrEqualTo(9));
+        Assert.That(m.Bodies.AngularVelocities[0].Length, Is.Zero.Within(1e-9));
     }
 
     [Test]
@@ -152,7 +166,7 @@ internal sealed class StepControllerTests
         Assert.That(MechanismMeasures.Drift(ring), Is.LessThanOrEqualTo(1e-8));
     }
 
-    private static (int Halvings, double Demand) HalvingsAfter(MultibodySystem mechanism, double dt, int steps)
+    private static (int Halvings, double Demand, int Tries) HalvingsAfter(MultibodySystem mechanism, double dt, int steps)
     {
         foreach (JointModel joint in mechanism.Joints)
         {
@@ -165,6 +179,7 @@ internal sealed class StepControllerTests
         var controller = new StepController(batch);
         SubstepHistory cut = default(SubstepHistory);
         double most = 0;
+        int tries = 0;
         for (int i = 0; i < steps; i++)
         {
             LaneTransfer<ScalarLane>.Gather(batch, mechanism, dt);
@@ -179,10 +194,11 @@ internal sealed class StepControllerTests
 
             most = System.Math.Max(most, StepLimit.Of(stiffest, batch.Work.Fastest[0], dt));
             controller.Advance(dt, 1e-9, ref cut, false, false);
+            tries = System.Math.Max(tries, controller.Tries);
             LaneTransfer<ScalarLane>.EndStep(batch);
             LaneTransfer<ScalarLane>.Scatter(batch, 1, mechanism);
         }
 
-        return (cut.Halvings, most);
+        return (cut.Halvings, most, tries);
     }
 }

@@ -107,6 +107,9 @@ internal struct ScalarRow
     /// <summary>Speed of the row at the start of the step; in an impact, before it.</summary>
     public double StartSpeed;
 
+    /// <summary>Time since the joint left its limit, as far as it was in this part of a step; else infinite, s.</summary>
+    public double Flight;
+
     public double Theta;
     public double ImplicitDamping;
 
@@ -161,6 +164,23 @@ internal struct ScalarRow
         State == RowState.AtBound || !IsActive ? ProjectedAs.Inactive
         : Kind == RowKind.Spring ? ProjectedAs.Compliant
         : ProjectedAs.Rigid;
+
+    /// <summary>
+    /// About where in the drift a limit that is passed at its end is reached, as a share of it: where the parabola through C and its rate at the start
+    /// and C at the end falls through 0; the middle of a drift at whose start nothing is known of it.
+    /// </summary>
+    /// <param name="h">Length of the drift, s.</param>
+    public readonly double ReachedAt(double h)
+    {
+        double c = IsActive ? Math.Max(0, StartError) : -End.GeometricError;
+        double b = IsActive ? StartSpeed * h : 0;
+        double a = End.GeometricError - c - b;
+        double square = b * b - 4 * a * c;
+
+        // Of the two roots the one at which it falls, in the form that does not cancel.
+        double root = Math.Sqrt(Math.Max(0, square));
+        return b > 0 ? -(b + root) / (2 * a) : 2 * c / (root - b);
+    }
 
     /// <param name="h">Step, s.</param>
     /// <param name="areForces">Whether the bounds of the joint's drives are forces, not impulses.</param>

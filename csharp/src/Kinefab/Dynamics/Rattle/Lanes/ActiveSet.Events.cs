@@ -12,27 +12,21 @@ internal sealed partial class ActiveSet<V>
     private const double Least = 1e-10;
 
     /// <summary>The least C at the end of the drift of the limits, hard and soft, that were not reached at its start, m or rad; infinite without one.</summary>
-    public double NearestApart()
+    public double NearestApart() => NearestApart(out _);
+
+    /// <summary>The same, and whose it is; -1 without one.</summary>
+    public double NearestApart(out int row)
     {
         double least = double.PositiveInfinity;
+        row = -1;
         for (int i = 0; i < _rows.Length; i++)
         {
             ref ScalarRow scalar = ref _rows[i];
-            bool isOne = scalar.IsApart && scalar.HasEnd && scalar.End.Has(RowFlags.Limit);
-            least = isOne ? Math.Min(least, scalar.End.GeometricError) : least;
-        }
-
-        return least;
-    }
-
-    /// <summary>The same at its start, of those that have a row there and are not about to leave it.</summary>
-    public double NearestApartAtStart(double h)
-    {
-        double least = double.PositiveInfinity;
-        for (int i = 0; i < _rows.Length; i++)
-        {
-            ref ScalarRow scalar = ref _rows[i];
-            least = scalar.IsApart && scalar.IsActive && !scalar.IsLeft ? Math.Min(least, Math.Max(scalar.StartError, scalar.StartSpeed * h)) : least;
+            if (scalar.IsApart && scalar.HasEnd && scalar.End.Has(RowFlags.Limit) && scalar.End.GeometricError < least)
+            {
+                least = scalar.End.GeometricError;
+                row = i;
+            }
         }
 
         return least;
@@ -40,6 +34,15 @@ internal sealed partial class ActiveSet<V>
 
     /// <summary>Whether a limit is to be left in the drift, see <see cref="ScalarRow.IsLeft"/>.</summary>
     public bool HasLeft() => Array.Exists(_rows, row => row.IsLeft);
+
+    /// <summary>A part begins: nothing is known of the last blow of any limit.</summary>
+    public void BeginPart()
+    {
+        for (int i = 0; i < _rows.Length; i++)
+        {
+            _rows[i].Flight = double.PositiveInfinity;
+        }
+    }
 
     /// <summary>A piece of a part begins: no limit is left yet.</summary>
     public void BeginPiece()
@@ -55,12 +58,16 @@ internal sealed partial class ActiveSet<V>
     /// Springs and motors of finite force give nothing in no time. False when the drift came to no limit.
     /// </summary>
     /// <param name="reach">C up to which a limit counts as reached, m or rad.</param>
-    public bool BeginImpact(double reach)
+    /// <param name="piece">Length of the drift, s.</param>
+    /// <param name="leastFlight">A limit that was struck less than this time ago throws nothing back: bounces that die out come to rest, s.</param>
+    public bool BeginImpact(double reach, double piece, double leastFlight)
     {
         bool isAny = false;
         for (int i = 0; i < _rows.Length; i++)
         {
             ref ScalarRow scalar = ref _rows[i];
+            bool wasReached = scalar.StartError <= reach;
+            scalar.Flight = (wasReached ? 0 : scalar.Flight) + piece;
             isAny |= scalar.IsApart && scalar.IsActive && IsHardLimit(scalar.Built) && scalar.Built.GeometricError <= reach;
         }
 
@@ -72,10 +79,11 @@ internal sealed partial class ActiveSet<V>
             bool isLimit = scalar.IsActive && IsHardLimit(scalar.Built);
             if (isLimit)
             {
+                bool isSpent = scalar.IsApart && scalar.Flight < leastFlight;
                 scalar.Kind = RowKind.Limit;
                 scalar.IsApart = false;
                 scalar.ImpulseFirstHalf = 0;
-                scalar.StartSpeed = StartSpeed(scalar);
+                scalar.StartSpeed = isSpent ? 0 : StartSpeed(scalar);
                 scalar.State = scalar.Built.GeometricError - scalar.Allowed <= reach ? RowState.Free : RowState.AtBound;
             }
             else if (!IsEndless(scalar))

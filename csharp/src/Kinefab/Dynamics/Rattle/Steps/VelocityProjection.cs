@@ -49,9 +49,14 @@ internal static class VelocityProjection<V>
     /// The blow of the limits that the drift came to, after <see cref="Run"/>; leaves its impulses in place of the projection's. False when it
     /// came to none.
     /// </summary>
-    public static bool Strike(LaneBatch<V> batch, double tolerance, ConjugateGradient? exact)
+    /// <param name="batch">At the end of its drift.</param>
+    /// <param name="piece">Length of the drift, s.</param>
+    /// <param name="leastFlight">See <see cref="ActiveSet{V}.BeginImpact"/>, s.</param>
+    /// <param name="tolerance">Largest C, metres or radians.</param>
+    /// <param name="exact">On the only lane: solves for what the compliance leaves; null: by iteration.</param>
+    public static bool Strike(LaneBatch<V> batch, double piece, double leastFlight, double tolerance, ConjugateGradient? exact)
     {
-        if (batch.ActiveSet == null || !batch.ActiveSet.BeginImpact(tolerance * ActiveSet<V>.Reach))
+        if (batch.ActiveSet == null || !batch.ActiveSet.BeginImpact(tolerance * ActiveSet<V>.Reach, piece, leastFlight))
         {
             return false;
         }

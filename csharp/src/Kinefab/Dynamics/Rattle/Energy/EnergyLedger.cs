@@ -3,17 +3,19 @@ using System;
 namespace Kinefab.Dynamics.Rattle;
 
 /// <summary>
-/// An island's account of energy from step to step: how far what it has lies above what it had and was given since. A step that gains, or
-/// loses where nothing takes any, more than a small share of the largest energy so far is too coarse; what gathers over many steps is
-/// taken from the speeds. A second-order step's energy swings about that of the motion: what it has lost it may bring back.
+/// An island's account of energy from step to step. A step in which more than a small share of the largest energy so far comes of nothing, or
+/// goes where nothing takes any, is too coarse. What gathers over many steps is taken from the speeds or given back to them.
 /// </summary>
 internal struct EnergyLedger
 {
-    // Of the largest energy so far: above what was given at most, and in a step.
+    // Of the largest energy so far: from what there should be, and in a step.
     private const double Share = 5e-4;
     private const double ShareOfStep = 1.25e-4;
 
-    private double _excess;
+    // How far the energy lies above what there was and was given, J: at least, as if limits and dampers had taken nothing, and at most,
+    // as if they had taken all that went while they acted. The first follows the energy down, lest it leave room for a gain.
+    private double _least;
+    private double _most;
     private double _largest;
 
     /// <summary>Whether a step is fine enough.</summary>
@@ -22,20 +24,22 @@ internal struct EnergyLedger
     /// <param name="mayLose">Whether something takes energy, as limits and dampers do.</param>
     public readonly bool Allows(double gain, double moving, bool mayLose)
     {
-        double most = ShareOfStep * Math.Max(_largest, moving);
-        return gain <= most && (mayLose || gain >= -most);
+        double allowed = ShareOfStep * Math.Max(_largest, moving);
+        return gain <= allowed && (mayLose || gain >= -allowed);
     }
 
-    /// <summary>Takes down a step that was taken. What limits and dampers take leaves no room for a gain.</summary>
-    /// <returns>What is to be taken from the speeds, J.</returns>
+    /// <summary>Takes down a step that was taken.</summary>
+    /// <returns>What is to be taken from the speeds, or below 0 given to them, J.</returns>
     public double Enter(double gain, double moving, bool mayLose)
     {
+        bool isExplained = mayLose || !Allows(gain, moving, false);
         _largest = Math.Max(_largest, moving);
-        double most = Share * _largest;
-        double excess = _excess + gain;
-        excess = mayLose ? Math.Max(excess, Math.Min(_excess, -most)) : excess;
-        double surplus = excess > most ? excess : 0;
-        _excess = excess - surplus;
+        double room = Share * _largest;
+        _most += isExplained ? Math.Max(0, gain) : gain;
+        _least = isExplained ? Math.Max(_least + gain, Math.Min(_least, -room)) : _least + gain;
+        double surplus = _least > room ? _least : _most < -room && !isExplained ? _most : 0;
+        _least -= surplus;
+        _most = Math.Min(room, _most - surplus);
         return surplus;
     }
 }

@@ -12,8 +12,8 @@ internal static class LaneEnergy<V>
     private const double EarlySteps = 2;
     private const double LeastTime = 1e-3;
 
-    // Of the energy that moves what stays, however much is to be taken.
-    private const double LeastKept = 0.5;
+    // Of what moves, the most that it is changed by.
+    private const double MostChange = 0.5;
 
     /// <summary>Kinetic energy where the rows were last built, J.</summary>
     public static Lane<V> Kinetic(LaneRecords<V> batch)
@@ -81,27 +81,27 @@ internal static class LaneEnergy<V>
         return isKnown;
     }
 
-    /// <summary>Slows the bodies of a lane down by as much of an energy as they can give.</summary>
+    /// <summary>Takes as much of an energy from the speeds of a lane's bodies as they can give, or gives it to them.</summary>
     /// <param name="batch">The island is one of these.</param>
     /// <param name="lane">Its lane.</param>
-    /// <param name="energy">J; none below 0.</param>
+    /// <param name="energy">What is to be taken, J.</param>
     /// <param name="kinetic">What moves, J.</param>
     public static void Take(LaneRecords<V> batch, int lane, double energy, double kinetic)
     {
-        if (!(energy > 0) || !(kinetic > 0))
+        if (energy == 0 || !(kinetic > 0))
         {
             return;
         }
 
         int w = Lane<V>.Width;
-        double kept = Math.Sqrt(Math.Max(LeastKept, 1 - energy / kinetic));
+        double factor = Math.Sqrt(1 - Math.Min(MostChange, Math.Max(-MostChange, energy / kinetic)));
         for (int body = 0; body < batch.Shape.MovingBodies; body++)
         {
             // L follows V.
             int o = LaneRecords<V>.Body(body, BodyLanes.V) + lane;
             for (int i = 0; i < 6; i++)
             {
-                batch.Bodies[o + i * w] *= kept;
+                batch.Bodies[o + i * w] *= factor;
             }
         }
     }

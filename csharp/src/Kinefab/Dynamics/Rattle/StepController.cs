@@ -242,19 +242,22 @@ internal sealed class StepController
     }
 
     // At the finest even parts a violent motion on which no scalar row acts may lose energy: nothing below these is better. Were it allowed to lose
-    // at any, while a gain is mended, an energy that swings about its value would be let down step by step.
+    // at any, while a gain is mended, an energy that swings about its value would be let down step by step. What is left there of a gain the account takes
+    // from the speeds.
     private bool IsEnergyKept(int halvings, double h)
     {
-        // A gain is a part's own to mend, not that of the part after it.
-        double share = EarlyShare + (1 - EarlyShare) * (_elapsed + h) / _dt;
-        bool mayLose = MayLose || halvings >= MostEven;
         if (!_isAudited)
         {
             return true;
         }
 
+        // A gain is a part's own to mend, not that of the part after it.
+        double share = EarlyShare + (1 - EarlyShare) * (_elapsed + h) / _dt;
+        bool isFinest = halvings >= MostEven;
+        bool mayLose = MayLose || isFinest;
         var now = new EnergyAudit(_batch, _dt, _tolerance);
-        return now.IsKept(_energy, mayLose, share * (mayLose ? MostEnergyGain : MostEnergyChange)) && _ledger.Allows(now.GainSince(_energy), now.Moving, mayLose);
+        return now.IsKept(_energy, mayLose, share * (mayLose ? MostEnergyGain : MostEnergyChange))
+            && (isFinest || _ledger.Allows(now.GainSince(_energy), now.Moving, mayLose));
     }
 
     private bool TrySubsteps(double dt, int halvings, double tolerance)

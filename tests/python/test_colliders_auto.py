@@ -107,7 +107,7 @@ def test_joined_parts_do_not_collide_and_a_pin_fits_its_hole(tmp_path):
 
 
 def test_without_the_library_the_check_is_told_to_be_missing(tmp_path, monkeypatch):
-    monkeypatch.setattr("kinefab.unity.overlaps.is_available", lambda: False)
+    monkeypatch.setattr("kinefab.unity.contact.overlaps.is_available", lambda: False)
     box = trimesh.creation.box((1, 1, 1))
     for apart, told in (
         (0.9, ["OVERLAPS_NOT_CHECKED"]),

@@ -20,7 +20,7 @@ from kinefab.geometry.mass import solid_volume
 from kinefab.model import Mesh, Scene
 from kinefab.spatial import matrix_from_quaternion
 from kinefab.unity.scene import BoxCollider, GameObject, SphereCollider, Transform, UnityScene
-from kinefab.unity.standing import standing_colliders
+from kinefab.unity.contact.placed import placed_colliders
 
 MANIFOLD = pytest.mark.skipif(find_spec("manifold3d") is None, reason="manifold3d is not installed")
 COAL = pytest.mark.skipif(find_spec("coal") is None, reason="coal is not installed")
@@ -219,7 +219,7 @@ def test_colliders_stand_where_the_objects_above_put_them():
         GameObject("D", "D", 2, True, components=boxed),
         GameObject("E", "E", None, True, Transform((0.0, 0.0, 9.0)), boxed),
     ]
-    found = standing_colliders(UnityScene(gameObjects=tuple(objects)))
+    found = placed_colliders(UnityScene(gameObjects=tuple(objects)))
     assert found.owners == [1, 4]
     assert np.allclose(found.low, [(-2, 15, -6), (0, -2, 6)]) and np.allclose(
         found.high, [(2, 17, 6), (2, 2, 12)]

@@ -49,9 +49,10 @@ FLOORS: dict[str, list[set[str]]] = {
     ],
     "unity": [
         {"frames", "scene", "definitions", "container"},
-        {"bodies", "assets", "joints", "constraints", "mobility", "standing", "placing", "apart"},
-        {"mapping", "overlaps"},
-        {"welded", "grouped", "switched_off"},
+        {"bodies", "assets", "joints", "constraints", "mobility", "placing", "apart"},
+        {"mapping"},
+        {"contact"},
+        {"switched_off"},
         {"counting", "links", "back"},
         {"__init__"},
     ],

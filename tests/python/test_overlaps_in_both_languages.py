@@ -21,7 +21,7 @@ import trimesh
 from kinefab.geometry.contact.depth import Solid
 from kinefab.model import Apart, Collider, ColliderKind
 from kinefab.spatial import Pose
-from kinefab.unity import overlaps
+from kinefab.unity.contact import overlaps
 from scipy.spatial import ConvexHull, QhullError
 from scipy.spatial.transform import Rotation
 

@@ -23,6 +23,13 @@ def links(scene, folder: Path) -> dict[str, dict]:
     return {name: c for name, c in found.items() if c["type"] == "ArticulationBody"}
 
 
+def by_scene(scene, folder: Path) -> dict[str, dict]:
+    """The same from a scene file of bodies and joints."""
+    made = folder / "made"
+    made.mkdir(exist_ok=True)
+    return links(kinefab.export(scene, made / "arm.kinefab").path, folder)
+
+
 @pytest.mark.parametrize("name, part, freedom", [("Shoulder", "Upper", RX), ("Rail", "Fore", TX)])
 def test_effort_is_the_drive_s_largest_force_and_speed_the_joint_s(tmp_path, name, part, freedom):
     scene = changed(arm(), name, freedom, passive=Passive(damping=0.7, effort=12.0, speed=1.5))
@@ -41,6 +48,7 @@ def test_a_joint_without_an_effort_is_not_held_and_one_of_zero_is(tmp_path):
     assert float(link(nodes_of(root)["Upper"])["m_XDrive"]["forceLimit"]) == pytest.approx(UNLIMITED)
     root, _ = exported(changed(arm(), "Shoulder", RX, passive=Passive(effort=0.0)), tmp_path)
     assert float(link(nodes_of(root)["Upper"])["m_XDrive"]["forceLimit"]) == 0.0
+    assert by_scene(changed(arm(), "Shoulder", RX, passive=Passive(effort=0.0)), tmp_path)["Upper"]["xDrive"]["forceLimit"] == 0.0
 
 
 @pytest.mark.parametrize("most, effort", [(7.0, 12.0), (math.inf, 12.0), (20.0, 12.0)])
@@ -70,9 +78,11 @@ def test_an_effort_does_not_hold_the_joint_s_own_spring_or_damper(tmp_path, pass
     root, result = exported(scene, tmp_path)
     assert float(link(nodes_of(root)["Upper"])["m_XDrive"]["forceLimit"]) == pytest.approx(UNLIMITED)
     assert "largest effort of joint Shoulder" in [f for f, c, _ in told(result) if c == "JOINT_EFFORT_DROPPED"]
+    assert by_scene(scene, tmp_path)["Upper"] == links(scene, tmp_path)["Upper"]
     both = changed(arm(), "Shoulder", RX, passive=passive, drive=Drive(0.0, 0.0, 5.0, 1.0))
     root, result = exported(both, tmp_path)
     assert float(link(nodes_of(root)["Upper"])["m_XDrive"]["forceLimit"]) == 12.0
+    assert by_scene(both, tmp_path)["Upper"] == links(both, tmp_path)["Upper"]
     assert [f for f, c, _ in told(result) if c == "JOINT_EFFORT_SHARED"] == ["largest effort of joint Shoulder"]
 
 

@@ -11,8 +11,9 @@ import pytest
 from kinefab.model import Apart
 from kinefab.spatial import matrix_from_quaternion
 from kinefab.views.overview import overview, picture
-from test_prefab_articulation import ARTICULATED, BOX, arm, exported, link, mass, nodes_of
+from test_prefab_articulation import ARTICULATED, BOX, arm, exported, link, mass, nodes_of, ringed
 
+FIXTURES = Path(__file__).resolve().parents[2] / "fixtures"
 VECTORS = {
     "anchorPosition": "m_AnchorPosition",
     "parentAnchorPosition": "m_ParentAnchorPosition",
@@ -125,3 +126,49 @@ def test_pairs_that_do_not_collide_name_the_same_parts_below_other_ones(tmp_path
     names = [entry["name"] for entry in found["gameObjects"]]
     assert names.index("Fore") < names.index("Upper")
     assert [{names[pair["a"]], names[pair["b"]]} for pair in found["ignoredCollisions"]] == [{"Loose", "Fore"}]
+
+
+LOOPS = [FIXTURES / "mechanisms" / f"{name}.bundle.json" for name in ("M43", "M44", "M50")]
+
+
+def linked(document: dict, folder: Path) -> dict:
+    """The scene of links that an edited scene file gives, without the report."""
+    path = folder / "edited.kinefab"
+    path.write_text(json.dumps(document), encoding="utf-8")
+    found = written(path, folder)
+    del found["report"]
+    return found
+
+
+@pytest.mark.parametrize("source", LOOPS, ids=lambda path: path.name)
+def test_a_joint_that_keeps_apart_changes_nothing_wherever_it_stands(tmp_path, source):
+    """Before those that hold, which have other places among the object's components then; couplings still name them."""
+    document = json.loads(kinefab.export(source, tmp_path / "edited.kinefab").path.read_text("utf-8"))
+    plain, first = linked(document, tmp_path), {}
+    for i, entry in enumerate(document["gameObjects"]):
+        joints = [c for c in entry.get("components", ()) if "connectedBody" in c]
+        if joints:
+            first[i] = entry["components"].index(joints[0])
+            apart = {"type": "ConfigurableJoint", "connectedBody": joints[0]["connectedBody"], "extras": {"apart": "by hand"}}
+            entry["components"].insert(first[i], apart)
+    for coupling in document.get("couplings", ()):
+        for end in (coupling["b"], coupling.get("a"), *coupling.get("terms", ())):
+            if end is not None:
+                end["component"] += end["component"] >= first[end["gameObject"]]
+    assert linked(document, tmp_path) == plain
+
+
+def test_helpers_of_joints_without_ids_have_ids_of_their_own(tmp_path):
+    document = json.loads(kinefab.export(LOOPS[1], tmp_path / "edited.kinefab").path.read_text("utf-8"))
+    for entry in document["gameObjects"]:
+        for component in entry.get("components", ()):
+            component.pop("id", None)
+    ids = [entry["id"] for entry in linked(document, tmp_path)["gameObjects"]]
+    assert len(set(ids)) == len(ids) and sum("kinefab:helper" in id for id in ids) == 7
+
+
+@pytest.mark.parametrize("stated", [False, True])
+def test_hollows_of_a_base_are_cut_alike_from_its_scene_file(tmp_path, stated):
+    """Hulls where nothing cuts; what the pieces are made of has the file's order and digits either way."""
+    scene = kinefab.export(ringed(stated), tmp_path / "made.kinefab").path
+    assert written(ringed(stated), tmp_path) == written(scene, tmp_path)

@@ -20,7 +20,7 @@ from .analysis.joints.dof_records import joints_of_dof_records
 from .analysis.joints.stated_limits import check_limits
 from .collector import collector_paused
 from .diagnostics import KinefabError, Report
-from .geometry.collision import ConvexOnly, collision_meshes
+from .geometry.collision import collision_meshes
 from .geometry.contact.helping import with_helpers
 from .geometry.loading import MeshFiles, load_geometry
 from .geometry.looks.shading import with_normals
@@ -39,15 +39,15 @@ from .targets import check_target, known_endings, target_of, write
 from .targets.content import Content
 from .unity.back.source import WrittenScene
 from .unity.bodies.colliders import Colliders
-from .unity.bodies.mated import with_mated_apart
-from .unity.grouped import with_groups_apart
+from .unity.contact.grouped import with_groups_apart
+from .unity.contact.mated import with_mated_apart
+from .unity.contact.overlaps import check_overlaps
+from .unity.contact.welded import with_welded_apart
 from .unity.joints.breaking import with_sound_breaks
 from .unity.mapping import map_scene
-from .unity.overlaps import check_overlaps
 from .unity.scene import Joint as UnityJoint
 from .unity.scene import UnityScene
 from .unity.switched_off import with_switched_off
-from .unity.welded import with_welded_apart
 
 Progress = Callable[[str, float], None]
 """Called with a stage's name and how much of it is done, 0 to 1."""
@@ -260,9 +260,8 @@ def _mapped(found: Analysed, options: ExportOptions, links: bool, report: Report
     if isinstance(found.scene, WrittenScene) and (as_written := found.scene.as_written(links, options, report)):
         return as_written
     scene, groups = with_normals(found.scene, options.smooth), found.groups
-    convex = ConvexOnly.with_links(scene, groups, options.ground) if links else ConvexOnly()
-    made = collision_meshes(found.scene, groups, options.colliders, options.ground, convex, report)
-    colliders = Colliders.behind(len(scene.meshes), made, options.colliders, options.ground, convex)
+    made = collision_meshes(found.scene, groups, options.colliders, options.ground, report)
+    colliders = Colliders.behind(len(scene.meshes), made, options.colliders, options.ground)
     entry, held = scene_entry(found.analysis), holding(found.analysis)
     mapped = map_scene(scene, groups, colliders, report, entry, held, found.analysis.findings)
     mapped = with_groups_apart(with_welded_apart(mapped), found.scene, report)

@@ -24,38 +24,6 @@ Cylinder = tuple[float, float]
 """Radius and length, metres."""
 
 
-@dataclass(frozen=True, slots=True)
-class ConvexOnly:
-    """On which bodies Unity takes convex meshes only: on what forces move, and on every link of an articulation, however it is held.
-
-    links: the groups that are such links.
-    """
-
-    links: frozenset[int | None] = frozenset()
-
-    @classmethod
-    def with_links(cls, scene: Scene, groups: RigidGroups, ground: Ground) -> ConvexOnly:
-        """Where joints make links of the bodies that they join, and of the ground where it is a body."""
-        held = groups.grounded.index(True) if any(groups.grounded) else None
-        sides = [n for joint in scene.joints for n in (joint.a, joint.b)]
-        joined = {held if n is None else groups.group_of[n] for n in sides}
-        return cls(frozenset(joined if ground is Ground.BODY else joined - {held}))
-
-    def on(self, node: int, scene: Scene, groups: RigidGroups) -> bool:
-        """Whether the body that a node is of takes no others."""
-        group = groups.group_of[node]
-        if group is None or group in self.links:
-            return group is not None
-        return is_dynamic(scene, groups, node)
-
-    def stated(self, collider: Collider, node: int, groups: RigidGroups) -> Collider:
-        """A collider that the source states of a node, as it can be.  A true mesh of the ground keeps its hollows as convex pieces,
-        for something may run in them; so does a trigger, which Unity takes no other of anywhere."""
-        held = groups.is_ground(node) and groups.group_of[node] in self.links
-        cut = collider.kind is ColliderKind.MESH and (held or collider.trigger)
-        return replace(collider, kind=ColliderKind.PIECES) if cut else collider
-
-
 @dataclass(frozen=True, slots=True, eq=False)
 class CollisionMeshes:
     """hulls: by the number of the mesh that they enclose.  pieces: of hollow ones, convex, by the same.  cylinders: by
@@ -68,18 +36,13 @@ class CollisionMeshes:
 
 
 def collision_meshes(
-    scene: Scene,
-    groups: RigidGroups,
-    shape: ColliderShape,
-    ground: Ground,
-    convex: ConvexOnly,
-    report: Report,
+    scene: Scene, groups: RigidGroups, shape: ColliderShape, ground: Ground, report: Report
 ) -> CollisionMeshes:
     """What the colliders of a scene need.
 
     shape: for bodies of nodes that state neither colliders nor their shape.  ground: what stands for it.
     """
-    asked = _Asked.of(scene, groups, shape, convex)
+    asked = _Asked.of(scene, groups, shape)
     for body in asked.not_convex:
         report.approximated(f"collider {body}", "COLLIDER_NOT_CONVEX", body=body)
     hulls = collision_hulls(scene, asked.hulled, report)
@@ -91,7 +54,7 @@ def hollow_pieces(
     scene: Scene, groups: RigidGroups, shape: ColliderShape, report: Report
 ) -> Mapping[int, tuple[Mesh, ...]]:
     """The convex pieces alone, for a format whose readers make the hulls.  The ground is a body there."""
-    asked = _Asked.of(scene, groups, shape, ConvexOnly())
+    asked = _Asked.of(scene, groups, shape)
     hulls = collision_hulls(scene, asked.split, Report())
     return _pieces(scene, groups, Ground.BODY, asked, hulls, report)
 
@@ -106,6 +69,12 @@ def _pieces(
 ) -> Mapping[int, tuple[Mesh, ...]]:
     near = meshes_near_others(scene, groups, ground, hulls) if asked.split else frozenset[int]()
     return convex_pieces(scene, asked.split, hulls, near, report)
+
+
+def possible(stated: Collider) -> Collider:
+    """A collider that the source states, as it can be: a trigger's mesh is convex pieces, as Unity takes no other of one anywhere."""
+    cut = stated.kind is ColliderKind.MESH and stated.trigger
+    return replace(stated, kind=ColliderKind.PIECES) if cut else stated
 
 
 class Shapes:
@@ -152,14 +121,14 @@ class _Asked:
     not_convex: list[str] = field(default_factory=list[str])
 
     @classmethod
-    def of(cls, scene: Scene, groups: RigidGroups, shape: ColliderShape, convex: ConvexOnly) -> _Asked:
+    def of(cls, scene: Scene, groups: RigidGroups, shape: ColliderShape) -> _Asked:
         asked = cls(Shapes(scene.meshes))
         for i, node in enumerate(scene.nodes):
-            moves = convex.on(i, scene, groups)
+            moves = is_dynamic(scene, groups, i)
             if node.colliders is None:
                 asked.add_bodies(node, node.collision or shape, moves)
             for stated in node.colliders or ():
-                asked.add_collider(node, convex.stated(stated, i, groups), moves)
+                asked.add_collider(node, possible(stated), moves)
         return asked
 
     def add_bodies(self, node: Node, shape: ColliderShape, moves: bool) -> None:

@@ -115,7 +115,7 @@ def _in_unity(content: Content) -> UnityScene:
         for joint in content.scene.joints:  # a scene has fields for what no joint of Unity's has
             withdraw_stated(joint, content.report)
         return scene
-    return articulated(scene, {joint.id: joint for joint in content.scene.joints}, content.report)
+    return articulated(scene, content.scene, content.groups, content.report)
 
 
 def _document(scene: UnityScene, looks: Looks, numbers: dict[str, Any], report: Report) -> dict[str, Any]:

@@ -9,9 +9,10 @@ from typing import Any
 
 from ..diagnostics import Report
 from ..findings import JointFinding
+from ..geometry.collision import possible
 from ..model import PLAIN, Apart, Body, Collider, PhysicsMaterial, Scene, Surface, free_id
 from ..options import Ground
-from ..rigid import RigidGroups, active_nodes, is_kinematic
+from ..rigid import RigidGroups, active_nodes, is_dynamic, is_kinematic
 from ..spatial import Pose
 from . import frames
 from .apart import apart_id, apart_joint
@@ -24,7 +25,7 @@ from .bodies.standing import Standing, find_standing
 from .constraints import map_constraint
 from .joints.couplings import map_coupling, screw_couplings
 from .joints.mapping import UnityJoint, map_joint
-from .joints.passive import stated_of, with_passive_drives
+from .joints.passive import OWN, stated_of, unbounded, with_passive_drives
 from .mobility import map_mobility
 from .placing import local_transforms, transform_of
 from .scene import (
@@ -175,7 +176,7 @@ class _Builder:
         """One body at home is the object's own mesh; others are children, so that each keeps its place and collider."""
         node = self.scene.nodes[index]
         bodies = [body for body in node.bodies if body.mesh is not None]
-        convex = self.colliders.convex.on(index, self.scene, self.groups)
+        moves = is_dynamic(self.scene, self.groups, index)
         for body in bodies:
             assert body.mesh is not None
             holder = parent
@@ -191,7 +192,7 @@ class _Builder:
             ]
             if node.colliders is None:
                 shape = node.collision or self.colliders.shape
-                for chosen in chosen_colliders(self.colliders, shape, body, mesh, convex, node.id, self.report):
+                for chosen in chosen_colliders(self.colliders, shape, body, mesh, moves, node.id, self.report):
                     at = holder
                     if chosen.pose is not None:
                         id = free_id(f"{node.id}/collider:{body.name}", self.taken)
@@ -202,13 +203,13 @@ class _Builder:
     def _add_colliders(self, index: int, parent: int) -> None:
         node = self.scene.nodes[index]
         for stated in node.colliders or ():
-            collider = self.colliders.convex.stated(stated, index, self.groups)
+            collider = possible(stated)
             material = self._physics_material(collider)
             for placed in stated_collider(
                 collider,
                 self.colliders,
                 self.scene.meshes,
-                self.colliders.convex.on(index, self.scene, self.groups),
+                is_dynamic(self.scene, self.groups, index),
                 material,
                 node.id,
                 self.report,
@@ -281,6 +282,8 @@ class _Builder:
             component = replace(mapped.component, connectedBody=connected)
             if isinstance(component, AnchoredJoint):
                 component = replace(component, **stated_of(joint))
+                own = [at.name for i, at in mapped.coordinates.items() if unbounded(joint.freedoms[i]) and joint.slerp is None]
+                component = replace(component, extras={**component.extras, OWN: own}) if own else component
             components = self.components[self.object_of[mapped.owner]]
             components.append(component)
             self.joints[joint.id] = (mapped, len(components) - 1)

@@ -9,9 +9,9 @@ from ..diagnostics import Outcome, Report
 from ..model import Joint as ModelJoint
 from ..model import Scene
 from ..rigid import RigidGroups
+from .contact.overlaps import bodies_of
 from .joints.mapping import map_joint
 from .joints.passive import stated_of, with_passive_drives
-from .overlaps import bodies_of
 from .scene import Component, Coupling, Joint, JointCoordinate, UnityScene
 from .scene.joints.joint import AnchoredJoint
 

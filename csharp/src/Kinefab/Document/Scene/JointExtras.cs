@@ -1,3 +1,4 @@
+using System;
 using System.Collections.Generic;
 using Kinefab.Json;
 
@@ -14,6 +15,18 @@ internal static class JointExtras
 
     /// <summary>Whether the joint only keeps its bodies from colliding: it holds nothing and stands for no joint of the source.</summary>
     internal static bool KeepsApart(Joint joint) => joint is ConfigurableJoint && Text(joint, "apart") is not null;
+
+    /// <summary>Whether a coordinate's drive is the joint's own spring and damper alone and may come to more than the effort, which bounds no such drive.</summary>
+    internal static bool IsOwn(Joint joint, string coordinate)
+    {
+        foreach ((string _, JsonTree value) in Tree(joint)?["own"]?.Fields ?? Array.Empty<(string, JsonTree)>())
+        {
+            if (value.ToString() == $"\"{coordinate}\"")
+                return true;
+        }
+
+        return false;
+    }
 
     /// <summary>Ends of a range that the component itself does not hold, degrees; null where none is told.</summary>
     internal static (double Low, double High)? Range(Joint joint, string field)

@@ -11,9 +11,6 @@ internal static class LinkBounds
 {
     private const double Radians = Math.PI / 180;
 
-    // m/s or rad/s of a link's axis where nobody states less: PhysX's own maxJointVelocity.
-    private const double Fastest = 100;
-
     /// <summary>The link with them, told where it holds one otherwise or not.</summary>
     internal static ArticulationBody Set(ArticulationBody link, AnchoredJoint joint, string name, string pointer, ToldLosses told, List<Diagnostic> findings)
     {
@@ -26,13 +23,12 @@ internal static class LinkBounds
             link = link with { MaxJointVelocity = speed };
         if (joint.Effort < double.PositiveInfinity)
         {
-            double most = hasSpeed ? Math.Min(speed, Fastest) : Fastest;
-            bool isHeld = true, isActuated = joint is ConfigurableJoint { RotationDriveMode: RotationDriveMode.Slerp };
-            ArticulationDrive Bound(ArticulationDrive drive, bool acts, ConfigurableJointMotion motion)
+            bool isHeld = true, isHinge = joint is HingeJoint;
+            ArticulationDrive Bound(ArticulationDrive drive, bool acts, string coordinate)
             {
                 if (!acts)
                     return drive;
-                bool isOwn = !isActuated && MayBeOwn(drive, motion == ConfigurableJointMotion.Limited, slides ? 1 : Radians, most, joint.Effort);
+                bool isOwn = JointExtras.IsOwn(joint, coordinate);
                 isHeld &= !isOwn;
                 return isOwn ? drive : drive with { ForceLimit = Math.Min(drive.ForceLimit, joint.Effort) };
             }
@@ -40,9 +36,9 @@ internal static class LinkBounds
             bool isBall = link.JointType == ArticulationJointType.Spherical;
             link = link with
             {
-                XDrive = Bound(link.XDrive, !isBall || link.TwistLock != ConfigurableJointMotion.Locked, slides ? link.LinearLock : link.TwistLock),
-                YDrive = Bound(link.YDrive, isBall && link.SwingYLock != ConfigurableJointMotion.Locked, link.SwingYLock),
-                ZDrive = Bound(link.ZDrive, isBall && link.SwingZLock != ConfigurableJointMotion.Locked, link.SwingZLock),
+                XDrive = Bound(link.XDrive, !isBall || link.TwistLock != ConfigurableJointMotion.Locked, slides ? "x" : isHinge ? "angle" : "angularX"),
+                YDrive = Bound(link.YDrive, isBall && link.SwingYLock != ConfigurableJointMotion.Locked, "angularY"),
+                ZDrive = Bound(link.ZDrive, isBall && link.SwingZLock != ConfigurableJointMotion.Locked, "angularZ"),
             };
             if (!isHeld)
                 findings.Add(Diagnostic.Of(DiagnosticCodes.JointEffortDropped, pointer, ("joint", name), ("limits", $"effort ({Invariant.Text(joint.Effort)})"), ("freedom", "its coordinate")));
@@ -53,17 +49,5 @@ internal static class LinkBounds
         if (joint.Armature > 0)
             findings.Add(Diagnostic.Of(DiagnosticCodes.JointArmatureDropped, pointer, ("joint", name), ("freedom", "its coordinate"), ("value", Invariant.Text(joint.Armature))));
         return link with { JointFriction = joint.Friction };
-    }
-
-    // A joint's own spring and damper are in its one drive too, and no effort bounds those. The exporter gives such a drive no largest force; the file does not tell it from an
-    // actuator's without one, so what could come to more than the effort is left as it is.
-    private static bool MayBeOwn(ArticulationDrive drive, bool isLimited, double unit, double speed, double effort)
-    {
-        if (drive.ForceLimit < double.PositiveInfinity || drive.DriveType != ArticulationDriveType.Force)
-            return false;
-        double most = drive.Damping * speed;
-        if (drive.Stiffness > 0)
-            most += isLimited ? drive.Stiffness * unit * Math.Max(Math.Abs(drive.LowerLimit - drive.Target), Math.Abs(drive.UpperLimit - drive.Target)) : double.PositiveInfinity;
-        return most > effort;
     }
 }

@@ -6,7 +6,7 @@ from collections.abc import Mapping
 
 import numpy as np
 
-from ...model import Body, Collider, ColliderKind, Mesh, Scene
+from ...model import Collider, ColliderKind, Mesh, Scene
 from ...options import Ground
 from ...rigid import RigidGroups
 from ...spatial import Array, Pose
@@ -33,9 +33,12 @@ def meshes_near_others(
         if node.colliders is None:
             for body in node.bodies:
                 if body.mesh is not None:
-                    shapes.add_body(owner, node.pose, body, body.mesh)
+                    shapes.add_mesh(owner, body.mesh, node.pose @ body.pose, body.scale)
         for collider in node.colliders or ():
-            shapes.add_points(owner, node.pose.point(_corners(collider, scene)))
+            if collider.mesh is not None:
+                shapes.add_mesh(owner, collider.mesh, node.pose @ collider.pose, collider.scale)
+            else:
+                shapes.add_points(owner, node.pose.point(_corners(collider)))
     low, high = shapes.extents({m: hulls.get(m, scene.meshes[m]).vertices for m in shapes.placed})
     owners, meshes = shapes.owners, shapes.meshes
     joined = [
@@ -51,8 +54,8 @@ def meshes_near_others(
 
 
 class _Shapes:
-    """What stands in the world.  owners: of each shape who moves it.  meshes: of each its mesh, None of a collider that is stated.
-    placed: by mesh the shapes that are bodies of it, each with what takes the mesh into the world."""
+    """What stands in the world.  owners: of each shape who moves it.  meshes: of each its mesh, None of a shape without one.
+    placed: by mesh the shapes that are made of it, each with what takes the mesh into the world."""
 
     def __init__(self) -> None:
         self.owners: list[int] = []
@@ -60,9 +63,8 @@ class _Shapes:
         self.placed: dict[int, list[tuple[int, Array, Array]]] = {}
         self._points: list[tuple[int, Array]] = []
 
-    def add_body(self, owner: int, node: Pose, body: Body, mesh: int) -> None:
-        stands = node @ body.pose
-        place = (len(self.owners), stands.rotation * body.scale, stands.translation)
+    def add_mesh(self, owner: int, mesh: int, stands: Pose, scale: tuple[float, float, float]) -> None:
+        place = (len(self.owners), stands.rotation * scale, stands.translation)
         self.placed.setdefault(mesh, []).append(place)
         self.owners.append(owner)
         self.meshes.append(mesh)
@@ -88,17 +90,9 @@ def _owner(groups: RigidGroups, node: int | None) -> int | None:
     return _GROUND if groups.is_ground(node) or node is None else groups.group_of[node]
 
 
-def _corners(collider: Collider, scene: Scene) -> Array:
-    """Of a box about a collider that the source states, in its node's frame, shape (8, 3)."""
-    if collider.mesh is not None:
-        vertices = scene.meshes[collider.mesh].vertices * collider.scale
-        low, high = vertices.min(axis=0), vertices.max(axis=0)
-        return _placed(collider.pose, 0.5 * (low + high), 0.5 * (high - low))
+def _corners(collider: Collider) -> Array:
+    """Of a box about a collider without mesh, in its node's frame, shape (8, 3)."""
     half = np.array(collider.size) * 0.5 if collider.kind is ColliderKind.BOX else np.full(3, collider.radius)
     if collider.kind in (ColliderKind.CAPSULE, ColliderKind.CYLINDER):
         half = half + [0.0, 0.0, 0.5 * collider.length]
-    return _placed(collider.pose, np.zeros(3), half)
-
-
-def _placed(pose: Pose, middle: Array, half: Array) -> Array:
-    return pose.point(middle + _CORNERS * half)
+    return collider.pose.point(_CORNERS * half)

@@ -7,6 +7,7 @@ from dataclasses import replace
 from functools import partial
 from itertools import islice
 
+from ...unity.assets.meshes import mesh_name
 from ...unity.links.tree import articulated
 from ...unity.scene import (
     AnimationClip,
@@ -30,7 +31,7 @@ from .files import AssetFile
 from .last import GUID, NOTHING, LastExport
 from .layers import LayersAndTags
 from .losses import TARGET, empty_colliders, tell_couplings, tell_losses, tell_names
-from .meshes import mesh_name, mesh_origin
+from .meshes import mesh_origin
 from .names import file_name, folded, most_bytes, unique
 from .objects.couplings import ASSEMBLY, FOLDER, SCRIPT, is_kept_by_script, script_guid
 from .objects.hierarchy import Hierarchy, References
@@ -88,8 +89,7 @@ class _Export:
         self.content, self.name, self.options = content, name, options
         self.scene = without_switched_off(content.unity(links=options.articulation), TARGET, content.report)
         if options.articulation:
-            stated = {joint.id: joint for joint in content.scene.joints}
-            self.scene = articulated(self.scene, stated, content.report)
+            self.scene = articulated(self.scene, content.scene, content.groups, content.report)
         self.dialect = options.dialect
         self.found: list[AssetFile] = []
 

@@ -5,6 +5,8 @@ from __future__ import annotations
 from collections.abc import Iterable
 
 from ...diagnostics import Report
+from ...unity.assets.meshes import mesh_name
+from ...unity.links.motions import RUNTIME
 from ...unity.scene import (
     ArticulationBody,
     BoxCollider,
@@ -20,8 +22,7 @@ from ...unity.scene import (
     SphereCollider,
     UnityScene,
 )
-from ...unity.links.motions import RUNTIME
-from .meshes import is_colored, mesh_name
+from .meshes import is_colored
 from .options import PrefabOptions
 from .text.dialects import Pipeline
 

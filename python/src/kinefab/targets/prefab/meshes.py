@@ -8,10 +8,6 @@ from ...unity.assets.meshes import MappedMeshes
 from ...unity.scene import Mesh
 
 
-def mesh_name(meshes: Sequence[Mesh], index: int) -> str:
-    return meshes.name(index) if isinstance(meshes, MappedMeshes) else meshes[index].name
-
-
 def mesh_origin(meshes: Sequence[Mesh], index: int) -> str:
     """What it is in the source, whoever uses it; "" where nobody says."""
     return meshes.origin(index) if isinstance(meshes, MappedMeshes) else ""

@@ -29,6 +29,23 @@ def map_mesh(mesh: model.Mesh) -> Mesh:
     )
 
 
+def unmapped_mesh(mesh: Mesh) -> model.Mesh:
+    """The way back of ``map_mesh``."""
+    tangents = mesh.tangents
+    if tangents is not None:
+        tangents = np.column_stack([frames.direction(tangents[:, :3]), frames.handedness(tangents[:, 3])])
+    return model.Mesh(
+        mesh.name,
+        frames.point(mesh.vertices),
+        frames.winding(mesh.triangles).astype(np.int64),
+        None if mesh.normals is None else frames.direction(mesh.normals),
+        tuple(np.asarray(uv, dtype=np.float64) for uv in mesh.uvs),
+        tangents,
+        None if mesh.colors is None else np.asarray(mesh.colors, dtype=np.float64),
+        face_counts=mesh.submeshes,
+    )
+
+
 class MappedMeshes(Sequence[Mesh]):
     """The model's meshes, mapped one by one: a scene of gigabytes is not there twice."""
 
@@ -58,3 +75,16 @@ class MappedMeshes(Sequence[Mesh]):
     def is_colored(self, index: int) -> bool:
         """Whether its vertices have colours; without mapping it."""
         return self._meshes[index].colors is not None
+
+    def with_behind(self, meshes: Sequence[model.Mesh]) -> MappedMeshes:
+        return MappedMeshes([*self._meshes, *meshes])
+
+
+def with_meshes_behind(own: Sequence[Mesh], made: Sequence[model.Mesh]) -> Sequence[Mesh]:
+    """Meshes of a scene, and others behind them."""
+    return own.with_behind(made) if isinstance(own, MappedMeshes) else [*own, *map(map_mesh, made)]
+
+
+def mesh_name(meshes: Sequence[Mesh], index: int) -> str:
+    """Without mapping it, where the scene can tell."""
+    return meshes.name(index) if isinstance(meshes, MappedMeshes) else meshes[index].name

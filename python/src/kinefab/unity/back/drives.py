@@ -12,12 +12,15 @@ import numpy as np
 from ...model import MOTOR_DAMPING, RX, Drive, Freedom, Motion, Passive, SphericalDrive
 from ...spatial import matrix_from_quaternion, rotation_exp, rotation_log
 from .. import frames
+from ..joints.passive import OWN
 from ..scene.joints.configurable_joint import SWING_RANGES, TWIST_RANGE
 from ..scene.joints.joint import UNLIMITED_FORCE
 
 Entry = Mapping[str, Any]
 
 _SENSES = frames.Senses.of(b_in_a=True)
+COORDINATES = ("x", "y", "z", "angularX", "angularY", "angularZ")
+"""Of a ConfigurableJoint, as the file names them."""
 _LINEAR = ("xDrive", "yDrive", "zDrive")
 
 
@@ -34,6 +37,15 @@ def _with_stated(component: Entry, freedom: Freedom, unit: float) -> Freedom:
         speed=unit * float(component.get("speed", math.inf)),
     )
     return replace(freedom, passive=passive)
+
+
+def _own(component: Entry, name: str, freedom: Freedom) -> Freedom:
+    """With its drive as the joint's own spring and damper, where the file says that it is nothing else.  name: of the coordinate."""
+    drive = freedom.drive
+    if drive is None or name not in component.get("extras", {}).get(OWN, ()):
+        return freedom
+    springs = {"stiffness": drive.stiffness, "rest": drive.target, "damping": drive.damping}
+    return replace(freedom, drive=None, passive=replace(freedom.passive or Passive(), **springs))
 
 
 def hinge_turn(component: Entry, turn: Freedom) -> Freedom:
@@ -55,7 +67,7 @@ def hinge_turn(component: Entry, turn: Freedom) -> Freedom:
             damping=float(spring.get("damper", 0.0)),
             acceleration=bool(component.get("useAcceleration", False)),
         )
-        return replace(turn, drive=drive)
+        return _own(component, "angle", replace(turn, drive=drive))
     return turn
 
 
@@ -78,7 +90,8 @@ def driven(component: Entry, freedoms: tuple[Freedom, ...]) -> tuple[Freedom, ..
                 found[RX + i], component.get(name, {}), sign * float(turn[i]), -sign * spins[i]
             )
     units = [1.0] * RX + [math.radians(1.0)] * RX
-    return tuple(_with_stated(component, f, unit) for f, unit in zip(found, units))
+    stated = (_with_stated(component, f, unit) for f, unit in zip(found, units))
+    return tuple(_own(component, name, freedom) for name, freedom in zip(COORDINATES, stated))
 
 
 def slerp_of(component: Entry) -> SphericalDrive | None:

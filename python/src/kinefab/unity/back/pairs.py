@@ -6,7 +6,7 @@ from collections.abc import Mapping
 from typing import Any
 
 from ...model import Apart, Colliding
-from ..grouped import colliding_in_spite_of_groups
+from ..contact.grouped import colliding_in_spite_of_groups
 from ..scene import UnityScene
 from ..scene.joints.configurable_joint import APART
 

@@ -35,13 +35,12 @@ from ...model import (
 from ...spatial import Array, Pose, frame_from_axes, matrix_from_quaternion
 from .. import frames
 from ..scene.joints.configurable_joint import MOTION_FIELDS
-from .drives import breaks, driven, hinge_turn, slerp_of
+from .drives import COORDINATES, breaks, driven, hinge_turn, slerp_of
 from .links import LINK, link_basis, link_freedoms
 from .terms import terms_of
 
 WORLD = "the world"
 """Id of the node that stands for the world, on which joints without a connected body hang."""
-_COORDINATES = ("x", "y", "z", "angularX", "angularY", "angularZ")
 _WORDS = {"Locked": Motion.LOCKED, "Limited": Motion.LIMITED, "Free": Motion.FREE}
 
 Entry = Mapping[str, Any]
@@ -297,7 +296,7 @@ def _reading_of(end: Entry, joint: Joint, reading: _Reading, scene: Scene) -> tu
     component: Entry = reading.objects[owner]["components"][end["component"]]
     if component["type"] == "HingeJoint":
         return 1.0, 0.0, RX
-    freedom = _COORDINATES.index(end["coordinate"])
+    freedom = COORDINATES.index(end["coordinate"])
     if component["type"] == LINK:
         return 1.0, 0.0, freedom
     senses = frames.Senses.of(b_in_a=joint.b == reading.node_of[owner])

@@ -32,14 +32,14 @@ from ...model import (
     Surface,
     Track,
 )
-from ...model import Mesh as ModelMesh
 from ...options import Closures, ExportOptions, Ground
 from ...spatial import Pose, matrix_from_quaternion
 from .. import frames
 from ..assets.clips import WRAP
+from ..assets.meshes import unmapped_mesh
 from ..joints.passive import with_passive_drives
 from ..mapping import GROUND_ID
-from ..scene import ArticulationBody, Collider, GameObject, Material, Mesh, MeshFilter, MeshRenderer, Rigidbody, UnityScene
+from ..scene import ArticulationBody, Collider, GameObject, Material, MeshFilter, MeshRenderer, Rigidbody, UnityScene
 from ..scene.joints.configurable_joint import APART
 from .extras import Way, extras_in
 from .pairs import pairs_apart, pairs_colliding
@@ -74,7 +74,7 @@ class WrittenScene(Scene):
             or options.limits
             or options.reading.get("mates")
         )
-        if anew or (links and not has_links):
+        if anew:
             return None
         if options.solve:
             self._tell_unused("solve", report)
@@ -152,7 +152,7 @@ class _Nodes:
         source, physics = written.source, written.physics
         return WrittenScene(
             nodes=nodes,
-            meshes=[_mesh(mesh) for mesh in written.meshes],
+            meshes=list(map(unmapped_mesh, written.meshes)),
             surfaces=[_surface(material) for material in written.materials],
             joints=joints,
             couplings=couplings,
@@ -352,22 +352,6 @@ def _dynamics(body: Rigidbody | ArticulationBody) -> Dynamics:
         body.linearDamping,
         body.angularDamping,
         max_angular_velocity=body.maxAngularVelocity,
-    )
-
-
-def _mesh(mesh: Mesh) -> ModelMesh:
-    tangents = mesh.tangents
-    if tangents is not None:
-        tangents = np.column_stack([frames.direction(tangents[:, :3]), frames.handedness(tangents[:, 3])])
-    return ModelMesh(
-        mesh.name,
-        frames.point(mesh.vertices),
-        frames.winding(mesh.triangles).astype(np.int64),
-        None if mesh.normals is None else frames.direction(mesh.normals),
-        tuple(np.asarray(uv, dtype=np.float64) for uv in mesh.uvs),
-        tangents,
-        None if mesh.colors is None else np.asarray(mesh.colors, dtype=np.float64),
-        face_counts=mesh.submeshes,
     )
 
 

@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 
 from ...diagnostics import Report
-from ...geometry.collision import CollisionMeshes, ConvexOnly, keeps_its_shape
+from ...geometry.collision import CollisionMeshes, keeps_its_shape
 from ...model import Body, Collider, ColliderKind, Mesh
 from ...options import ColliderShape, Ground
 from ...spatial import Array, Pose
@@ -33,8 +33,7 @@ class Colliders:
     cylinder_of: for each (radius, length) the index of a mesh of it along Z.
     pieces_of: for each hollow mesh the indices of its convex pieces.
     made: those meshes, to stand behind the scene's own.
-    ground: what stands for it; as a body it is kinematic, where Unity takes meshes of every shape, unless it is a link.
-    convex: which bodies take convex meshes only.
+    ground: what stands for it.
     shape_of: for each mesh that is a box, ball or capsule that shape, in the mesh's frame.
     """
 
@@ -44,13 +43,10 @@ class Colliders:
     made: tuple[Mesh, ...] = ()
     pieces_of: Mapping[int, Sequence[int]] = field(default_factory=dict[int, Sequence[int]])
     ground: Ground = Ground.WORLD
-    convex: ConvexOnly = ConvexOnly()
     shape_of: Mapping[int, Collider] = field(default_factory=dict[int, Collider])
 
     @classmethod
-    def behind(
-        cls, own: int, made: CollisionMeshes, shape: ColliderShape, ground: Ground, convex: ConvexOnly
-    ) -> Colliders:
+    def behind(cls, own: int, made: CollisionMeshes, shape: ColliderShape, ground: Ground) -> Colliders:
         """Those of a scene with ``own`` meshes, behind which the made ones stand: hulls, cylinders, pieces."""
         numbers = itertools.count(own)
         hull_of = {mesh: next(numbers) for mesh in made.hulls}
@@ -58,10 +54,10 @@ class Colliders:
         pieces_of = {mesh: [next(numbers) for _ in pieces] for mesh, pieces in made.pieces.items()}
         pieces = itertools.chain.from_iterable(made.pieces.values())
         meshes = (*made.hulls.values(), *made.cylinders.values(), *pieces)
-        return cls(shape, hull_of, cylinder_of, meshes, pieces_of, ground, convex, made.shapes)
+        return cls(shape, hull_of, cylinder_of, meshes, pieces_of, ground, made.shapes)
 
 
-def _box_about(mesh: Mesh, **common: Any) -> BoxCollider:
+def box_about(mesh: Mesh, **common: Any) -> BoxCollider:
     """Along the mesh's own axes.  common: fields of every collider."""
     low, high = mesh.vertices.min(axis=0), mesh.vertices.max(axis=0)
     center = vector3(frames.point(0.5 * (low + high)))
@@ -102,7 +98,7 @@ def _meshes_of(
     if shape is not ColliderShape.BOX and shape is not ColliderShape.HULL and index in colliders.pieces_of:
         return [MeshCollider(mesh=piece, convex=True) for piece in colliders.pieces_of[index]]
     if shape is ColliderShape.BOX or index not in colliders.hull_of:
-        return [_box_about(mesh)]
+        return [box_about(mesh)]
     return [MeshCollider(mesh=colliders.hull_of[index], convex=True)]
 
 
@@ -152,7 +148,7 @@ def stated_collider(
         return [_meshed(MeshCollider(**common, mesh=collider.mesh), collider)]
     if collider.mesh not in colliders.hull_of:
         report.approximated(feature, "COLLIDER_FLAT_AS_BOX", collider.where, collider=feature)
-        return [_meshed(_box_about(meshes[collider.mesh], **common), collider)]
+        return [_meshed(box_about(meshes[collider.mesh], **common), collider)]
     if collider.kind is ColliderKind.MESH:
         report.approximated(feature, "COLLIDER_MESH_AS_HULL", collider.where, collider=feature)
     else:

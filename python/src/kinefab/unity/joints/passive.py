@@ -10,6 +10,11 @@ from ...diagnostics import Report
 from ...model import RX, Drive, Freedom, Joint, Motion, Passive
 from .limits import feature_of
 
+FASTEST_LINK = 100.0
+"""m/s or rad/s of a link's axis where nobody states less: PhysX's own ``maxJointVelocity``."""
+OWN = "own"
+"""In ``extras`` of a component: its coordinates whose drive is the joint's own spring and damper alone and may come to more than the
+effort, which bounds no such drive."""
 MOST = 1e36
 """Newtons, metres, radians: a 32-bit float holds it in degrees too."""
 
@@ -89,7 +94,24 @@ def stated_of(joint: Joint) -> dict[str, float]:
     ((effort, speed, friction, armature),) = stated
     speed = math.degrees(speed) if moving[0][0] >= RX else speed
     found = {"effort": effort, "speed": speed, "friction": friction, "armature": armature}
-    return {name: value for name, value in found.items() if 0.0 < value <= MOST}
+    return {name: value for name, value in found.items() if 0.0 < value <= MOST or (name == "effort" and value == 0.0)}
+
+
+def own_force(freedom: Freedom, passive: Passive) -> float:
+    """The most that a joint's own spring and damper can come to, which share its drive."""
+    speed = min(passive.speed, FASTEST_LINK) if passive.speed > 0.0 else FASTEST_LINK
+    force = passive.damping * speed
+    if passive.stiffness > 0.0:
+        limited = freedom.motion is Motion.LIMITED
+        ends = (freedom.lower, freedom.upper) if limited else (-math.inf, math.inf)
+        force += passive.stiffness * max(abs(end - passive.rest) for end in ends)
+    return force
+
+
+def unbounded(freedom: Freedom) -> bool:
+    """Whether its drive is the joint's own spring and damper alone, which may come to more than the effort."""
+    passive = freedom.passive
+    return passive is not None and freedom.drive is None and own_force(freedom, passive) > passive.effort
 
 
 def withdraw_stated(joint: Joint, report: Report) -> None:

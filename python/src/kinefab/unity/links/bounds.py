@@ -8,14 +8,12 @@ from dataclasses import replace
 from typing import Any
 
 from ...diagnostics import Report
-from ...model import RX, Freedom, Joint, Motion, Passive
+from ...model import RX, Joint, Passive
 from ..joints.coordinates import canonical
 from ..joints.limits import feature_of
-from ..joints.passive import tell_bounds, unkept_bounds, withdraw_bounds
+from ..joints.passive import own_force, tell_bounds, unbounded, unkept_bounds, withdraw_bounds
 from ..scene import ArticulationDrive
 
-FASTEST = 100.0
-"""m/s or rad/s of a link's axis where nobody states less: PhysX's own ``maxJointVelocity``."""
 AXES = ("xDrive", "yDrive", "zDrive")
 
 
@@ -72,25 +70,14 @@ def _force_limit(
     """The least of the drive's own largest force and the effort; None where that would hold a spring or damper of the joint
     itself, which no effort bounds, and nothing else."""
     freedom = stated.freedoms[index]
-    if _own_force(freedom, passive) > passive.effort:
-        if freedom.drive is None and stated.slerp is None:
-            return None
+    if unbounded(freedom) and stated.slerp is None:
+        return None
+    if own_force(freedom, passive) > passive.effort:
         value, name = f"{passive.effort:g}", stated.freedom_name(index)
         told = {"joint": stated.id, "freedom": name, "value": value}
         feature = feature_of(stated, "largest effort", index)
         report.approximated(feature, "JOINT_EFFORT_SHARED", stated.where, **told)
     return min(drive.forceLimit, passive.effort)
-
-
-def _own_force(freedom: Freedom, passive: Passive) -> float:
-    """The most that a joint's own spring and damper can come to, which share its drive."""
-    speed = min(passive.speed, FASTEST) if passive.speed > 0.0 else FASTEST
-    force = passive.damping * speed
-    if passive.stiffness > 0.0:
-        limited = freedom.motion is Motion.LIMITED
-        ends = (freedom.lower, freedom.upper) if limited else (-math.inf, math.inf)
-        force += passive.stiffness * max(abs(end - passive.rest) for end in ends)
-    return force
 
 
 def _friction(stated: Joint, report: Report) -> float:

@@ -14,9 +14,11 @@ import numpy as np
 
 from ...diagnostics import Report
 from ...model import Joint as ModelJoint
+from ...model import Scene, free_id
+from ...rigid import RigidGroups
 from ...spatial import Pose, matrix_from_quaternion, quaternion_from_matrix
+from ..contact.overlaps import check_overlaps
 from ..mapping import GROUND_ID
-from ..overlaps import check_overlaps
 from ..scene import (
     AnimationClip,
     ArticulationBody,
@@ -35,6 +37,7 @@ from ..scene import (
 from ..scene.joints.joint import AnchoredJoint
 from ..scene.vectors import Quaternion, quaternion4, vector3
 from .bounds import bounded
+from .convex import with_convex_colliders
 from .motions import (
     ARTICULATION,
     NotArticulated,
@@ -60,12 +63,12 @@ Edge = tuple[int, int]
 """A joint: its object, and its place among the object's components."""
 
 
-def articulated(scene: UnityScene, joints: Mapping[str, ModelJoint], report: Report) -> UnityScene:
+def articulated(scene: UnityScene, model: Scene, groups: RigidGroups, report: Report) -> UnityScene:
     """The scene with links for Rigidbodies, or as it is where it has links; its couplings are those of the links' coordinates.
-    joints: of the model, by id.  The report gets an error for each joint that no articulation has."""
+    model: what the scene was made of, or was read as.  The report gets an error for each joint that no articulation has."""
     if any(isinstance(c, ArticulationBody) for entry in scene.gameObjects for c in entry.components):
         return scene
-    made = _Articulation(scene, joints, report).scene_of_links()
+    made = _Articulation(scene, model, groups, report).scene_of_links()
     check_overlaps(made, report)  # a joint that is a link now, or on a helper body, keeps other pairs from colliding
     return made
 
@@ -73,8 +76,10 @@ def articulated(scene: UnityScene, joints: Mapping[str, ModelJoint], report: Rep
 @dataclass(slots=True, eq=False)
 class _Articulation:
     scene: UnityScene
-    joints: Mapping[str, ModelJoint]
+    model: Scene
+    groups: RigidGroups
     report: Report
+    joints: dict[str, ModelJoint] = field(default_factory=dict[str, ModelJoint])
     objects: list[GameObject] = field(default_factory=list[GameObject])
     poses: list[Pose] = field(default_factory=list[Pose])
     bodies: dict[int, Rigidbody] = field(default_factory=dict[int, Rigidbody])
@@ -82,23 +87,29 @@ class _Articulation:
     ground: int | None = None
     moved: dict[Edge, Edge] = field(default_factory=dict[Edge, Edge])
     """Of each joint the component that holds it now."""
+    taken: set[str] = field(default_factory=set[str])
+    """Ids of objects."""
 
     def scene_of_links(self) -> UnityScene:
+        self.joints = {joint.id: joint for joint in self.model.joints}
         self._read()
         parents, closing = self._tree()
         self._tell_size({child: parent for child, (parent, _) in parents.items()})
+        self.scene = replace(self.scene, gameObjects=tuple(self.objects))
+        self.scene = with_convex_colliders(self.scene, parents.keys(), self.model, self.groups, self.report)
+        self.objects = list(self.scene.gameObjects)
         links = {child: self._link(child, parent, edge) for child, (parent, edge) in parents.items()}
-        used = {edge for _, edge in parents.values() if edge is not None} | set(closing)
+        gone = {*self.edges, *self._apart()}
+        for index, entry in enumerate(self.objects):
+            kept = tuple(c for k, c in enumerate(entry.components) if (index, k) not in gone)
+            self.objects[index] = replace(entry, components=kept)
         for index, link in links.items():
-            self._replace(
-                index,
-                [c for k, c in enumerate(self.objects[index].components) if (index, k) not in used],
-                link,
-            )
+            self._replace(index, link)
             self._move_below(index, parents[index][0])
             if (inner := parents[index][1]) is not None:
                 kinds = [isinstance(c, ArticulationBody) for c in self.objects[index].components]
                 self.moved[inner] = (index, kinds.index(True))
+        self.taken = {entry.id for entry in self.objects}
         for edge in closing:
             self._close(edge, links)
         animations = self._clips(links.keys())
@@ -146,13 +157,12 @@ class _Articulation:
         for i, entry in enumerate(self.objects):
             for body in (c for c in entry.components if isinstance(c, Rigidbody)):
                 self.bodies[i] = body
-            self._leave_out_apart(i)
         self.ground = next((i for i, entry in enumerate(self.objects) if entry.id == GROUND_ID), None)
         self.edges = [
             (i, k)
             for i in self.bodies
             for k, c in enumerate(self.objects[i].components)
-            if isinstance(c, Joint)
+            if isinstance(c, Joint) and not (isinstance(c, ConfigurableJoint) and c.keeps_apart)
         ]
         if self.ground is None and any(self._joint(edge).connectedBody is None for edge in self.edges):
             self.objects.append(GameObject(ARTICULATION_GROUND_ID, "Ground"))
@@ -160,16 +170,16 @@ class _Articulation:
             self.ground = len(self.objects) - 1
             self.bodies[self.ground] = Rigidbody(isKinematic=True, useGravity=False)
 
-    def _leave_out_apart(self, index: int) -> None:
+    def _apart(self) -> list[Edge]:
         """Joints that only keep bodies from colliding: between links they would hold helper bodies apart, not the links."""
-        components = self.objects[index].components
-        left = [c for c in components if isinstance(c, ConfigurableJoint) and c.keeps_apart]
-        for joint in left:
-            told = {"field": "what does not collide", "target": ARTICULATION}
-            self.report.dropped(f"pair {joint.id.removeprefix('apart:')}", "TARGET_FIELD_DROPPED", **told)
-        if left:
-            kept = tuple(c for c in components if c not in left)
-            self.objects[index] = replace(self.objects[index], components=kept)
+        found: list[Edge] = []
+        for i, entry in enumerate(self.objects):
+            for k, c in enumerate(entry.components):
+                if isinstance(c, ConfigurableJoint) and c.keeps_apart:
+                    told = {"field": "what does not collide", "target": ARTICULATION}
+                    self.report.dropped(f"pair {c.id.removeprefix('apart:')}", "TARGET_FIELD_DROPPED", **told)
+                    found.append((i, k))
+        return found
 
     def _joint(self, edge: Edge) -> Joint:
         joint = self.objects[edge[0]].components[edge[1]]
@@ -298,8 +308,8 @@ class _Articulation:
         apart = self.poses[own].point(np.array(joint.anchor)) - other.point(np.array(joint.connectedAnchor))
         return float(apart @ (self.poses[own].rotation @ np.array(joint.axis)))
 
-    def _replace(self, index: int, components: list[Component], link: ArticulationBody) -> None:
-        kept = [link if isinstance(c, Rigidbody) else c for c in components]
+    def _replace(self, index: int, link: ArticulationBody) -> None:
+        kept: list[Component] = [link if isinstance(c, Rigidbody) else c for c in self.objects[index].components]
         if link not in kept:
             kept.append(link)
         self.objects[index] = replace(self.objects[index], components=tuple(kept))
@@ -332,7 +342,7 @@ class _Articulation:
         self.moved[edge] = (len(self.objects), len(components) - 1)
         self.objects.append(
             GameObject(
-                f"kinefab:helper {joint.id or own.id}",
+                free_id(f"kinefab:helper {joint.id or own.id}", self.taken),
                 f"{name} closure",
                 None,
                 transform=_transform(self.poses[edge[0]]),

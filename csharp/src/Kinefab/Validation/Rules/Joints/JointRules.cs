@@ -22,7 +22,7 @@ internal static class JointRules
         NumberRules.Finite(at, "anchor", joint.Anchor);
         NumberRules.Finite(at, "axis", joint.Axis);
         NumberRules.Finite(at, "connectedAnchor", joint.ConnectedAnchor);
-        NumberRules.PositiveOrUnlimited(at, "effort", joint.Effort);
+        NumberRules.NotNegativeOrUnlimited(at, "effort", joint.Effort);
         NumberRules.PositiveOrUnlimited(at, "speed", joint.Speed);
         NumberRules.NotNegative(at, "friction", joint.Friction);
         NumberRules.NotNegative(at, "armature", joint.Armature);

@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-from ..geometry.contact.nearness import close_pairs
-from ..partition import Partition
-from .apart import with_apart
+from ...geometry.contact.nearness import close_pairs
+from ...partition import Partition
+from ..apart import with_apart
+from ..scene import FixedJoint, UnityScene
 from .overlaps import bodies_of, joined_pairs
-from .scene import FixedJoint, UnityScene
-from .standing import standing_colliders
+from .placed import placed_colliders
 
 
 def with_welded_apart(scene: UnityScene) -> UnityScene:
@@ -25,11 +25,11 @@ def with_welded_apart(scene: UnityScene) -> UnityScene:
                 weld = True
     if not weld:
         return scene
-    standing = standing_colliders(scene)
+    placed = placed_colliders(scene)
     held = joined_pairs(scene, bodies)
     pairs: dict[tuple[int, int], str] = {}
-    for first, second in close_pairs(standing.low, standing.high).tolist():
-        a, b = (bodies[standing.owners[i]] for i in (first, second))
+    for first, second in close_pairs(placed.low, placed.high).tolist():
+        a, b = (bodies[placed.owners[i]] for i in (first, second))
         if a is None or b is None or a == b or welded.find(a) != welded.find(b) or frozenset((a, b)) in held:
             continue
         held.add(frozenset((a, b)))

@@ -6,7 +6,8 @@ from dataclasses import replace
 
 from ...model import Apart, ConstraintKind, Scene
 from ...rigid import RigidGroups
-from .rigidbodies import place_rigidbodies
+from ..bodies.rigidbodies import place_rigidbodies
+from ..joints.coordinates import removes_nothing
 
 BY_CONTACT = frozenset(
     {
@@ -26,10 +27,17 @@ BY_CONTACT = frozenset(
 
 def with_mated_apart(scene: Scene, groups: RigidGroups) -> Scene:
     """The scene in which bodies that a constraint puts into each other do not collide, also where no joint is made between them:
-    teeth that mesh, and bearings whose joint hangs the body on another one."""
+    teeth that mesh, and bearings whose joint hangs the body on another one.  Nor do those of a joint that removes nothing, as one that
+    only counts an angle for a coupling, or whose rows the rest of a loop holds: not every target writes it."""
     known = {frozenset((pair.a, pair.b)) for pair in [*scene.apart, *scene.colliding]}
-    known |= {frozenset((joint.a, joint.b)) for joint in scene.joints if not joint.collide}
+    joints = [joint for joint in scene.joints if not joint.collide]
+    holding = [joint for joint in joints if not removes_nothing(joint)]
+    known |= {frozenset((joint.a, joint.b)) for joint in holding}
     mated: dict[frozenset[int | None], Apart] = {}
+    for joint in joints:
+        pair = frozenset((joint.a, joint.b))
+        if joint.a is not None and joint.b is not None and pair not in known and not groups.together(joint.a, joint.b):
+            mated.setdefault(pair, Apart(joint.a, joint.b, f"joint {joint.name or joint.id}", joint.where, stated=False))
     for constraint in scene.constraints:
         if constraint.kind in BY_CONTACT or constraint.suppressed or len(constraint.features) < 2:
             continue
@@ -48,6 +56,6 @@ def with_mated_apart(scene: Scene, groups: RigidGroups) -> Scene:
             return None if node is None else carrier_of[node]
         return groups.standing[node] if groups.standing else node
 
-    joined = {frozenset((body(joint.a), body(joint.b))) for joint in scene.joints if not joint.collide}
+    joined = {frozenset((body(joint.a), body(joint.b))) for joint in holding}
     found = [pair for pair in mated.values() if frozenset((body(pair.a), body(pair.b))) not in joined]
     return replace(scene, apart=[*scene.apart, *found]) if found else scene

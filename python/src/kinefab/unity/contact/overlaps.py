@@ -4,12 +4,12 @@ from __future__ import annotations
 
 import numpy as np
 
-from ..diagnostics import Report
-from ..geometry.contact.depth import Depths, is_available
-from ..geometry.contact.nearness import close_pairs
-from ..spatial import Array
-from .scene import ArticulationBody, Joint, Rigidbody, UnityScene
-from .standing import standing_colliders
+from ...diagnostics import Report
+from ...geometry.contact.depth import Depths, is_available
+from ...geometry.contact.nearness import close_pairs
+from ...spatial import Array
+from ..scene import ArticulationBody, Joint, Rigidbody, UnityScene
+from .placed import placed_colliders
 
 CONTACT_OFFSET = 0.01
 """Metres: Unity's default, within which touching shapes are held apart softly."""
@@ -39,15 +39,15 @@ def check_overlaps(scene: UnityScene, report: Report) -> None:
         within = [_within_body(scene, bodies, owner) for owner in (first, second)] if ignored else [[], []]
         return any(frozenset((a, b)) in ignored for a in within[0] for b in within[1])
 
-    standing = standing_colliders(scene)
-    moved = [bodies[owner] for owner in standing.owners]
+    placed = placed_colliders(scene)
+    moved = [bodies[owner] for owner in placed.owners]
     free = [
         (first, second, tolerated)
-        for first, second, tolerated in _close(standing.low, standing.high)
+        for first, second, tolerated in _close(placed.low, placed.high)
         if moved[first] != moved[second]
         and dynamic & {moved[first], moved[second]}
         and frozenset((moved[first], moved[second])) not in joined
-        and not are_ignored(standing.owners[first], standing.owners[second])
+        and not are_ignored(placed.owners[first], placed.owners[second])
     ]
     if not free:
         return
@@ -59,13 +59,13 @@ def check_overlaps(scene: UnityScene, report: Report) -> None:
     depths, found = Depths(), dict[tuple[int, int], float]()
     fine: set[int] = set()
     for first, second, tolerated in free[:MOST_PAIRS]:
-        finest = max(first, second, key=standing.triangles)
-        if standing.triangles(finest) > MOST_TRIANGLES:
-            fine.add(standing.owners[finest])
+        finest = max(first, second, key=placed.triangles)
+        if placed.triangles(finest) > MOST_TRIANGLES:
+            fine.add(placed.owners[finest])
             continue
-        depth = depths.between(standing.solid(first), standing.solid(second))
+        depth = depths.between(placed.solid(first), placed.solid(second))
         if depth > tolerated:
-            pair = (standing.owners[first], standing.owners[second])
+            pair = (placed.owners[first], placed.owners[second])
             found[pair] = max(depth, found.get(pair, 0.0))
     for owner in sorted(fine):
         detail = f"{scene.gameObjects[owner].id} has more than {MOST_TRIANGLES} triangles"

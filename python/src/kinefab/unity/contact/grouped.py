@@ -5,11 +5,11 @@ from __future__ import annotations
 from collections.abc import Mapping
 from itertools import combinations, combinations_with_replacement, product
 
-from ..diagnostics import Report
-from ..model import Scene, ignored_groups
-from .apart import with_apart
+from ...diagnostics import Report
+from ...model import Scene, ignored_groups
+from ..apart import with_apart
+from ..scene import Collider, Rigidbody, UnityScene
 from .overlaps import bodies_of, joined_pairs
-from .scene import Collider, Rigidbody, UnityScene
 
 MOST_JOINTS = 1000
 """Pairs of bodies that get a joint for their groups."""

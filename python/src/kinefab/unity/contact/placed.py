@@ -7,11 +7,11 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
-from ..geometry.contact.depth import Solid
-from ..geometry.contact.nearness import placed_extents
-from ..geometry.primitives import box, sphere
-from ..spatial import Array, IntArray, matrices_from_quaternions
-from .scene import BoxCollider, CapsuleCollider, GameObject, MeshCollider, SphereCollider, UnityScene
+from ...geometry.contact.depth import Solid
+from ...geometry.contact.nearness import placed_extents
+from ...geometry.primitives import box, sphere
+from ...spatial import Array, IntArray, matrices_from_quaternions
+from ..scene import BoxCollider, CapsuleCollider, GameObject, MeshCollider, SphereCollider, UnityScene
 
 _Collider = BoxCollider | SphereCollider | CapsuleCollider | MeshCollider
 _Shape = tuple[Array, IntArray]
@@ -19,7 +19,7 @@ _Shape = tuple[Array, IntArray]
 
 
 @dataclass(slots=True, eq=False)
-class StandingColliders:
+class PlacedColliders:
     """All that are switched on.  owners: of each its object.  low, high: of each, metres, shape (n, 3)."""
 
     owners: list[int]
@@ -43,7 +43,7 @@ class StandingColliders:
         return len(self._shapes[number][1])
 
 
-def standing_colliders(scene: UnityScene) -> StandingColliders:
+def placed_colliders(scene: UnityScene) -> PlacedColliders:
     """Those of a scene, in the order of its objects and their components."""
     linear, positions = _in_world(scene.gameObjects)
     active: list[bool] = []
@@ -68,7 +68,7 @@ def standing_colliders(scene: UnityScene) -> StandingColliders:
         low[members], high[members] = placed_extents(shape[0], linear[at], positions[at], np.eye(3))
         for k in members:
             shapes[k] = shape
-    return StandingColliders(owners, low, high, convex, shapes, linear, positions)
+    return PlacedColliders(owners, low, high, convex, shapes, linear, positions)
 
 
 def _in_world(objects: Sequence[GameObject]) -> tuple[Array, Array]:

@@ -2,7 +2,6 @@ using System;
 using System.Collections.Concurrent;
 using System.Collections.Generic;
 using System.Globalization;
-using System.Threading;
 using System.Threading.Tasks;
 using Kinefab.Dynamics;
 using Kinefab.Dynamics.Rattle;
@@ -22,9 +21,8 @@ internal sealed class LimitedSceneTests
     private const double MostPassed = 2e-8;
     private const double MostStopped = 0.01;
 
-    // Of the largest energy so far: in a few scenes, and in any.
-    private const double MostUsualGain = 1e-3;
-    private const double MostGain = 5e-3;
+    // Above what the first step shows, of the largest energy so far.
+    private const double MostGain = 1e-3;
 
     [Test]
     public void Step_ScenesThatRunIntoLimits_StayTrue()
@@ -33,7 +31,6 @@ internal sealed class LimitedSceneTests
         int firstSeed = Setting("KINEFAB_FIRST_SCENE", 0);
         var faults = new ConcurrentQueue<string>();
         var stopped = new ConcurrentQueue<int>();
-        int gained = 0;
         Parallel.For(firstSeed, firstSeed + count, seed =>
         {
             var scene = new LimitedScene(seed);
@@ -66,17 +63,10 @@ internal sealed class LimitedSceneTests
             {
                 faults.Enqueue($"seed {seed}: energy grew by {gain} of the largest");
             }
-
-            if (gain > MostUsualGain)
-            {
-                Interlocked.Increment(ref gained);
-                TestContext.Progress.WriteLine($"seed {seed}: energy grew by {gain} of the largest");
-            }
         });
-        TestContext.Progress.WriteLine($"{count} scenes: {stopped.Count} stopped ({string.Join(' ', stopped)}), {gained} gained energy");
+        TestContext.Progress.WriteLine($"{count} scenes: {stopped.Count} stopped ({string.Join(' ', stopped)})");
         Assert.That(faults, Is.Empty);
         Assert.That((double)stopped.Count / count, Is.LessThanOrEqualTo(MostStopped));
-        Assert.That((double)gained / count, Is.LessThanOrEqualTo(MostStopped));
     }
 
     /// <summary>Kinematic bodies that move by centimetres hold wild ones: 1.6e7 J came of nothing while nobody audited what such bodies may give.</summary>

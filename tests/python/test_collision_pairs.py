@@ -327,6 +327,18 @@ def test_links_of_a_model_collide_where_one_of_them_says_so(tmp_path: Path, mode
     assert touching(tmp_path / "arm.kinefab") == with_crate | within
 
 
+def test_a_link_that_says_so_collides_with_what_it_is_welded_to(tmp_path: Path):
+    """Two links that a fixed joint makes one body, of which one passes through a third and one does not: what collides, collides."""
+    weld = """<joint name="weld" type="fixed"><parent>base</parent><child>tool</child></joint></model><model name="crate">"""
+    tool = """<link name="tool"><pose>0 0 1 0 0 0</pose><self_collide>true</self_collide><inertial><mass>1</mass></inertial>
+<collision name="c"><geometry><box><size>.1 .1 .1</size></box></geometry></collision></link>"""
+    text = three_links().replace("""</model><model name="crate">""", tool + weld)
+    (tmp_path / "arm.sdf").write_text(text, encoding="utf-8")
+    result = kinefab.export(tmp_path / "arm.sdf", tmp_path / "arm.kinefab")
+    assert any({"arm/base", "arm/fore"} <= pair for pair in touching(tmp_path / "arm.kinefab"))
+    assert "PAIR_DROPPED" in {d.code for d in result.report.diagnostics}
+
+
 def robot(name: str, x: float, base: str = "", more: str = "") -> str:
     """An arm on a hinge to a base that is fixed to the world, or to ``base``."""
     own = f"""<link name="base"><inertial><mass>2</mass></inertial><collision name="c"><geometry><box><size>.2 .2 .2</size></box></geometry>

@@ -11,10 +11,11 @@ from pathlib import Path
 import kinefab
 import numpy as np
 import pytest
+import trimesh
 from gltf_pairs import GltfPairs
 from kinefab.diagnostics import Report
 from kinefab.geometry.looks.gltf_document import gltf_document
-from kinefab.model import AnimationClip, Collider, ColliderKind, Constraint, Coupling, Joint, Node, NodeKind
+from kinefab.model import AnimationClip, Apart, Collider, ColliderKind, Constraint, Coupling, Joint, Node, NodeKind
 from kinefab.pipeline import prepared
 from kinefab.spatial import Pose
 from random_machines import Machine, built_machine, standing_machine
@@ -251,6 +252,29 @@ def test_gltf_says_the_same_pairs(source: Path, closures: str, tmp_path: Path):
     kinefab.export(scene, tmp_path / "a.glb", kinefab.ExportOptions(colliders="box", closures=closures))
     found = GltfPairs(gltf_document(tmp_path / "a.glb")).passing(parts)
     assert found == passing(exported(scene, tmp_path, closures), parts)
+
+
+@pytest.mark.parametrize("ending", ["glb", "usda"])
+def test_a_pair_with_an_assembly_is_one_with_all_that_stands_in_it(ending: str, tmp_path: Path):
+    """The assembly's own object touches nothing, and is no body where it stands."""
+    scene = kinefab.Scene()
+    frame = scene.add_part("Frame", trimesh.creation.box((0.1, 0.1, 0.1)), grounded=True)
+    table = len(scene.nodes)
+    scene.nodes.append(Node("Table", "Table", NodeKind.ASSEMBLY, flexible=False, grounded=True))
+    for name, x in (("Top", 0.5), ("Leg", 0.7)):
+        part = scene.add_part(name, trimesh.creation.box((0.1, 0.1, 0.1)), translation=(x, 0, 0))
+        scene.nodes[part] = replace(scene.nodes[part], parent=table)
+    arm = scene.add_part("Arm", trimesh.creation.box((0.1, 0.1, 0.1)), translation=(0, 0.2, 0))
+    scene.add_hinge(frame, arm, point=(0, 0, 0), axis=(0, 0, 1))
+    scene.apart.append(Apart(arm, table, "contact exclude"))
+    expected = {frozenset(("Arm", name)) for name in ("Frame", "Top", "Leg")}
+    assert passing(exported(scene, tmp_path), {"Frame", "Top", "Leg", "Arm"}) == expected
+    if ending == "usda":
+        pytest.importorskip("pxr")
+    kinefab.export(scene, tmp_path / f"a.{ending}")
+    parts = {"Frame", "Top", "Leg", "Arm"}
+    found = GltfPairs(gltf_document(tmp_path / "a.glb")) if ending == "glb" else StagePairs(tmp_path / "a.usda")
+    assert found.passing(parts) == expected
 
 
 @pytest.mark.parametrize("closures", ["exact", "minimal"])

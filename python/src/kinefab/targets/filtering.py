@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection
+from collections.abc import Collection, Sequence
 from typing import cast
 
 from ..diagnostics import Report
@@ -55,6 +55,17 @@ def base_pairs(scene: Scene, groups: RigidGroups) -> list[tuple[int, int]]:
                 others = [part for part in parts[bases[base]] if not _is_below(scene, groups, named, part, base)]
                 found |= dict.fromkeys((own, part) for part in others if _touches(scene.nodes[part]))
     return list(found)
+
+
+def carried_with(scene: Scene, groups: RigidGroups, bases: Sequence[int | None], node: int) -> list[int]:
+    """A node and those above it that move with it.  bases: see ``bases_of``."""
+    own = groups.group_of[node], bases[node]
+    found: list[int] = []
+    at: int | None = node
+    while at is not None and (groups.group_of[at], bases[at]) == own:
+        found.append(at)
+        at = scene.nodes[at].parent
+    return found
 
 
 def _touches(node: Node) -> bool:

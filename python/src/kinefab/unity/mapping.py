@@ -4,16 +4,16 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
+from itertools import product
 from types import MappingProxyType
 from typing import Any
 
 from ..diagnostics import Report
 from ..findings import JointFinding
 from ..geometry.collision import possible
-from ..model import PLAIN, Apart, Body, Collider, PhysicsMaterial, Scene, Surface, free_id
+from ..model import PLAIN, Collider, PhysicsMaterial, Scene, Surface, free_id
 from ..options import Ground
 from ..rigid import RigidGroups, active_nodes, is_dynamic, is_kinematic
-from ..spatial import Pose
 from . import frames
 from .apart import apart_id, apart_joint
 from .assets.clips import map_clip
@@ -27,9 +27,8 @@ from .joints.couplings import map_coupling, screw_couplings
 from .joints.mapping import UnityJoint, map_joint
 from .joints.passive import OWN, stated_of, unbounded, with_passive_drives
 from .mobility import map_mobility
-from .placing import local_transforms, transform_of
+from .placing import at_home, local_transforms, transform_of, with_all_below
 from .scene import (
-    ONE,
     Component,
     Coupling,
     FixedJoint,
@@ -180,7 +179,7 @@ class _Builder:
         for body in bodies:
             assert body.mesh is not None
             holder = parent
-            if len(bodies) > 1 or not _at_home(body):
+            if len(bodies) > 1 or not at_home(body):
                 id = free_id(f"{node.id}/body:{body.name}", self.taken)
                 placed = transform_of(body.pose, body.scale)
                 holder = self._object(GameObject(id, body.name, parent, transform=placed))
@@ -309,20 +308,21 @@ class _Builder:
         for own, other in self._beside_bases():
             keep(own, other, "part of the base of a joint")
         for pair in self.scene.apart:
-            a, b = (bodies[self.object_of[node]] for node in (pair.a, pair.b))
             ids = (self.scene.nodes[pair.a].id, self.scene.nodes[pair.b].id)
-            feature = f"{pair.reason} of {ids[0]} and {ids[1]}"
-            if a == b or not (self._moves(a) or self._moves(b)):
-                self._tell_apart(pair, feature)
-                continue
-            own, other = (a, b) if self._moves(a) else (b, a)
-            whole = all(self._is_whole(body, node) for body, node in ((a, pair.a), (b, pair.b)))
-            if own is None or other is None or not (whole or frozenset((a, b)) in joined):
-                if pair.stated:  # what touches of the others is found where they stand
-                    self.report.dropped(feature, "PAIR_DROPPED", pair.where, a=ids[0], b=ids[1])
-                continue
-            keep(own, other, pair.reason)
-            self._tell_apart(pair, feature)
+            feature, kept = f"{pair.reason} of {ids[0]} and {ids[1]}", True
+            for a, b in product(self._bodies_of(pair.a, bodies), self._bodies_of(pair.b, bodies)):
+                if a == b or not (self._moves(a) or self._moves(b)):
+                    continue
+                own, other = (a, b) if self._moves(a) else (b, a)
+                whole = all(self._is_whole(body, node) for body, node in ((a, pair.a), (b, pair.b)))
+                if own is None or other is None or not (whole or frozenset((a, b)) in joined):
+                    kept = False
+                else:
+                    keep(own, other, pair.reason)
+            if pair.stated and kept:
+                self.report.kept(feature, pair.where)
+            elif pair.stated:  # what touches of the others is found where they stand
+                self.report.dropped(feature, "PAIR_DROPPED", pair.where, a=ids[0], b=ids[1])
 
     def _beside_bases(self) -> list[tuple[int, int]]:
         """What moves, with each body of the base that a joint has it on, also where no component stands for that joint."""
@@ -338,10 +338,6 @@ class _Builder:
                     found += [(own, other) for other in others if self._moves(own)]
         return found
 
-    def _tell_apart(self, pair: Apart, feature: str) -> None:
-        if pair.stated:
-            self.report.kept(feature, pair.where)
-
     def _body(self, index: int) -> int | None:
         """The object whose Rigidbody moves another; None for what stands in the world."""
         at: int | None = index
@@ -354,17 +350,23 @@ class _Builder:
             isinstance(c, Rigidbody) and not c.isKinematic for c in self.components[body]
         )
 
+    def _bodies_of(self, node: int, bodies: Sequence[int | None]) -> list[int | None]:
+        """The Rigidbody that moves a node; of what stands those of all that it holds, each of which may have its own."""
+        own = bodies[self.object_of[node]]
+        if self._moves(own):
+            return [own]
+        within = with_all_below(self.objects, self.object_of[node])
+        held = {bodies[i]: None for i in self._touching() if i in within and not self._moves(bodies[i])}
+        return list(held) or [own]
+
     def _is_whole(self, body: int | None, node: int) -> bool:
         """Whether all colliders of a Rigidbody are those of a node and of what stands below it."""
-        within = {self.object_of[node]}
-        for index, entry in enumerate(self.objects):
-            if entry.parent in within:
-                within.add(index)
-        return all(
-            index in within
-            for index, own in enumerate(self.components)
-            if any(isinstance(c, UnityCollider) for c in own) and self._body(index) == body
-        )
+        within = with_all_below(self.objects, self.object_of[node])
+        return all(index in within for index in self._touching() if self._body(index) == body)
+
+    def _touching(self) -> list[int]:
+        """Objects with colliders."""
+        return [i for i, own in enumerate(self.components) if any(isinstance(c, UnityCollider) for c in own)]
 
     def _carrier(self, node: int) -> int:
         assert self.rigidbodies is not None
@@ -385,13 +387,3 @@ class _Builder:
         screws = screw_couplings([mapped for mapped, _ in self.joints.values()], stated)
         mapped = (map_coupling(c, self.joints, self.object_of, self.report) for c in [*stated, *screws])
         return [coupling for coupling in mapped if coupling is not None]
-
-
-HOME = Pose()
-
-
-def _at_home(body: Body) -> bool:
-    """Whether a body's mesh lies in its node's own frame."""
-    pose = body.pose
-    unmoved = not pose.translation.any() and bool((pose.rotation == HOME.rotation).all())
-    return unmoved and body.scale == ONE

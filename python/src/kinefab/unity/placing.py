@@ -6,10 +6,10 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from ..model import Scene
+from ..model import Body, Scene
 from ..spatial import Pose, quaternion_from_rows
 from . import frames
-from .scene import ONE, Transform, Vector3
+from .scene import ONE, GameObject, Transform, Vector3
 from .scene.vectors import vector3, vectors3
 
 
@@ -17,6 +17,21 @@ def transform_of(local: Pose, scale: Vector3 = ONE) -> Transform:
     """local: in the frame of the object above."""
     placed = frames.pose(local)
     return Transform(vector3(placed.translation), quaternion_from_rows(placed.rotation.tolist()), scale)
+
+
+def at_home(body: Body) -> bool:
+    """Whether a body's mesh lies in its node's own frame."""
+    unmoved = not body.pose.translation.any() and bool((body.pose.rotation == np.eye(3)).all())
+    return unmoved and body.scale == ONE
+
+
+def with_all_below(objects: Sequence[GameObject], index: int) -> set[int]:
+    """An object and all that stand below it."""
+    found = {index}
+    for number, entry in enumerate(objects):
+        if entry.parent in found:
+            found.add(number)
+    return found
 
 
 def local_transforms(scene: Scene, parents: Sequence[int | None]) -> list[Transform]:

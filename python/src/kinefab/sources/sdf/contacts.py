@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterable, Sequence
+from collections import Counter
+from collections.abc import Iterable, Mapping, Sequence
 from itertools import combinations
 
 from ...diagnostics import Report
@@ -32,20 +33,31 @@ def keep_apart(
     for i, entry in enumerate(entries):
         if links[i].touched and not entry.owner.static and entry.element.tag == "link":
             of_model.setdefault(visible(entry.owner), []).append(i)
+    links_of = Counter(carriers[i].node for own in of_model.values() for i in own)
     for model, own in of_model.items():
         whole = truth(model.element.content("self_collide"))
         alone = [i for i in own if not truth(entries[i].element.content("self_collide"), whole)]
-        _keep(scene, model, {carriers[i].node: None for i in alone}, known, report)
+        _keep(scene, model, Counter(carriers[i].node for i in alone), links_of, known, report)
 
 
 def _keep(
-    scene: Scene, model: Scope, nodes: Collection[int], known: set[frozenset[int]], report: Report
+    scene: Scene,
+    model: Scope,
+    alone: Mapping[int, int],
+    links_of: Mapping[int, int],
+    known: set[frozenset[int]],
+    report: Report,
 ) -> None:
-    pairs = [pair for pair in combinations(nodes, 2) if frozenset(pair) not in known]
+    """alone: of each node how many links of the model on it ask for no collisions.  links_of: how many there are on it at all."""
+    pairs = [pair for pair in combinations(alone, 2) if frozenset(pair) not in known]
     reason = f"self_collide of model {model.name}"
     if len(pairs) > MOST_PAIRS:
         report.dropped(f"{reason}: {len(pairs)} pairs of links", "ELEMENT_DROPPED", model.element.where)
         return
     for a, b in pairs:
         known.add(frozenset((a, b)))
-        scene.apart.append(Apart(a, b, reason, model.element.where, stated=False))
+        if all(alone[node] == links_of[node] for node in (a, b)):
+            scene.apart.append(Apart(a, b, reason, model.element.where, stated=False))
+        else:
+            ids = (scene.nodes[a].id, scene.nodes[b].id)
+            report.dropped(f"{reason} of {ids[0]} and {ids[1]}", "PAIR_DROPPED", model.element.where, a=ids[0], b=ids[1])

@@ -13,7 +13,7 @@ from ...diagnostics import Report
 from ...model import Scene, ignored_groups
 from ...rigid import RigidGroups
 from ...unity.bodies.standing import bases_of
-from ..filtering import base_pairs, ignored_pairs, tell_colliding
+from ..filtering import base_pairs, carried_with, ignored_pairs, tell_colliding
 
 System = tuple[str, tuple[int, ...]]
 """Group, "" for none, and the nodes that pairs name."""
@@ -37,18 +37,9 @@ class Filters:
 
     def add(self, node: int, group: str, entry: dict[str, Any]) -> None:
         """entry: of a collider or trigger, which gets its filter by ``write``."""
-        nodes = tuple(i for i in self._line(node) if i in self._named)
+        line = carried_with(self._scene, self._groups, self._bases, node)
+        nodes = tuple(i for i in line if i in self._named)
         self._members.setdefault((group, nodes), []).append(entry)
-
-    def _line(self, node: int) -> list[int]:
-        """A node and those above it that move with it."""
-        own = self._groups.group_of[node], self._bases[node]
-        found: list[int] = []
-        at: int | None = node
-        while at is not None and (self._groups.group_of[at], self._bases[at]) == own:
-            found.append(at)
-            at = self._scene.nodes[at].parent
-        return found
 
     def written(self) -> list[dict[str, Any]]:
         """The document's filters; the collected entries refer to them."""

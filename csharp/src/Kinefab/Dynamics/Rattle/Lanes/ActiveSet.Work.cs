@@ -93,6 +93,20 @@ internal sealed partial class ActiveSet<V>
         return sum;
     }
 
+    /// <summary>What springs with a potential give over a distance by the force that they hold where the rows were last built, J.</summary>
+    /// <param name="distance">m or rad.</param>
+    public double SpringWorkOver(double distance)
+    {
+        double sum = 0;
+        for (int i = 0; i < _rows.Length; i++)
+        {
+            ref ScalarRow scalar = ref _rows[i];
+            sum += scalar.IsActive && scalar.Built.Has(RowFlags.Spring) ? Stiffness(scalar) * Math.Abs(scalar.Built.GeometricError) * distance : 0;
+        }
+
+        return sum;
+    }
+
     /// <summary>The most that motors and prescribed motions can have given since the start of the step, J.</summary>
     /// <param name="dt">Step, s.</param>
     public double MotorWorkBound(double dt)

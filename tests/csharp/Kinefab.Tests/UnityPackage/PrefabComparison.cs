@@ -89,10 +89,10 @@ internal sealed class PrefabComparison
             Check(own, field, to, at);
         string[] components = [.. own.List("m_Component")];
         // What moves an import is none of a prefab's, which needs no package.
-        Assert.That(to.Components.Where(c => c is not KinefabMechanism).Select(Class).Order(StringComparer.Ordinal), Is.EqualTo(components.Select(c => prefab.Documents[c].Class).Order(StringComparer.Ordinal)), at);
+        Assert.That(to.Components.Where(c => c is not (KinefabMechanism or KinefabBody)).Select(Class).Order(StringComparer.Ordinal), Is.EqualTo(components.Select(c => prefab.Documents[c].Class).Order(StringComparer.Ordinal)), at);
         foreach (IGrouping<string, string> kind in components.GroupBy(c => prefab.Documents[c].Class))
         {
-            foreach ((string from, Unity.Component component) in kind.Zip(to.Components.Where(c => c is not KinefabMechanism && Class(c) == kind.Key)))
+            foreach ((string from, Unity.Component component) in kind.Zip(to.Components.Where(c => c is not (KinefabMechanism or KinefabBody) && Class(c) == kind.Key)))
             {
                 PrefabFile.Record record = prefab.Documents[from];
                 foreach (string field in record.Fields.Keys.Where(f => !IsLeftOut(record.Class, f)))

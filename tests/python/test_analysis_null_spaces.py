@@ -8,10 +8,12 @@ import pytest
 from kinefab.analysis import analyse
 from kinefab.analysis.equations.solve import Solver
 from kinefab.analysis.freedom.first_order import large_null_space, tree_motions
+from kinefab.analysis.freedom.inverse import few_velocities
 from kinefab.analysis.freedom.rank import factored, normalised
 from kinefab.spatial import skew
 from linkages import flat_ladder, ring
 from mechanism_cases import scene
+from scipy.sparse import csr_matrix
 from test_analysis_cost import pins
 
 CASES = {
@@ -45,6 +47,44 @@ def test_rank_and_null_space_are_those_of_the_dense_jacobian(case):
         assert rank == ranks[0]
         assert np.abs(basis.T @ basis - np.eye(basis.shape[1])).max(initial=0.0) < 1e-12
         assert np.linalg.norm(vt[0, :rank] @ basis) < 1e-6
+
+
+def grid(cells: int, noise: float = 0.0) -> kinefab.Scene:
+    """Closed cells of plates hinged at the middles of their sides, axes off by about ``noise``."""
+    draw, scene = np.random.default_rng(2), kinefab.Scene()
+    plates = [
+        [scene.add_part(f"{x} {y}", mass=1.0, translation=(x, y, 0), grounded=x + y == 0) for x in range(cells + 1)]
+        for y in range(cells + 1)
+    ]
+    for y, row in enumerate(plates):
+        for x, plate in enumerate(row):
+            for other, point in ((row[x - 1], (x - 0.5, y, 0)), (plates[y - 1][x], (x, y - 0.5, 0))):
+                if (x if point[1] == y else y) > 0:
+                    axis = np.array([0.0, 0.0, 1.0]) + noise * draw.standard_normal(3)
+                    scene.add_hinge(other, plate, point=point, axis=tuple(axis))
+    return scene
+
+
+@pytest.mark.parametrize("case", [*CASES, "grid", "grid with axes off"])
+def test_inverse_iteration_finds_the_same_velocities(case):
+    """Up to the noise of rows that do not quite repeat each other."""
+    made = CASES.get(case, lambda: grid(5, 1e-6 if "off" in case else 0.0))()
+    for part, known in enumerate((found := analyse(made).assembly).freedoms):
+        system = found.solver.alone(part)
+        solver = Solver(system)
+        (group,) = solver.groups
+        _, at_a, at_b = system.linearise(system.start())
+        jacobian = normalised(solver.sparse_jacobian(group, at_a, at_b).toarray(), solver.sizes(at_a, at_b))
+        told = few_velocities(csr_matrix(jacobian))
+        assert told is not None
+        rank, basis, gap = told
+        assert (rank, gap >= 1e10) == (known.rank, known.gap >= 1e10)
+        assert np.abs(basis.T @ basis - np.eye(basis.shape[1])).max(initial=0.0) < 1e-12
+        assert np.linalg.norm(known.basis - basis @ (basis.T @ known.basis)) < max(1e-7, known.noise)
+
+
+def test_more_velocities_than_are_worth_it_are_left_to_the_tree():
+    assert few_velocities(csr_matrix(np.eye(40, 300))) is None
 
 
 @pytest.mark.parametrize("seed", range(3))

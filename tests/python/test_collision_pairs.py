@@ -339,6 +339,20 @@ def test_a_link_that_says_so_collides_with_what_it_is_welded_to(tmp_path: Path):
     assert "PAIR_DROPPED" in {d.code for d in result.report.diagnostics}
 
 
+def test_a_link_passes_through_what_stands_of_its_own_model_alone(tmp_path: Path):
+    """Nothing is joined to what stands: the pair alone is why that has a body of its own."""
+    def link(name: str, x: float) -> str:
+        return f"""<link name="{name}"><pose>{x} 0 0 0 0 0</pose><inertial><mass>1</mass></inertial><collision name="c"><geometry><box>
+<size>.1 .1 .1</size></box></geometry></collision></link>"""
+
+    foot = '<joint name="foot" type="fixed"><parent>world</parent><child>post</child></joint>'
+    text = f"""<sdf version="1.9"><world name="w"><model name="wall"><static>true</static>{link("brick", 3)}</model><model name="m">
+{link("post", 0)}{link("loose", 1)}{foot}</model></world></sdf>"""
+    (tmp_path / "post.sdf").write_text(text, encoding="utf-8")
+    kinefab.export(tmp_path / "post.sdf", tmp_path / "post.kinefab")
+    assert touching(tmp_path / "post.kinefab") == {frozenset(("m/loose", "wall/brick"))}
+
+
 def robot(name: str, x: float, base: str = "", more: str = "") -> str:
     """An arm on a hinge to a base that is fixed to the world, or to ``base``."""
     own = f"""<link name="base"><inertial><mass>2</mass></inertial><collision name="c"><geometry><box><size>.2 .2 .2</size></box></geometry>

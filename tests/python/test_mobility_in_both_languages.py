@@ -85,8 +85,14 @@ APART_ONCE = {
     5983: (4, 3),  # a leg at the pole of its universal joint
     6139: (0, 0),  # a velocity that is obstructed late
     6432: (6, 0),  # a coupling joins a chain's end to another chain
+    6455: (2, 0),  # two branches, and an obstructed velocity that takes a motion back along with it
     11902: (5, 3),  # couplings that tie a slide, and leave its turn
     12243: (6, 3),
+    30685: (2, 2),  # two idle spins, and a velocity obstructed at every pose
+    72343: (4, 0),  # a steep coupling hid that a turn is obstructed
+    60153: (2, 0),  # a block's only motion, in a part that a coupling makes larger
+    60536: (7, 0),  # a screw that a rod holds by the square of its lead alone
+    90882: (5, 5),  # obstructed velocities mixed with motions, which do not come back onto the joints in one go
 }
 """Mechanisms, by seed, that were once counted differently: mobility and idle freedoms."""
 
@@ -98,6 +104,36 @@ def test_both_count_what_was_counted_differently(tmp_path, seed):
     assert (stated["mobility"], stated["idle"]) == APART_ONCE[seed]
     if TOOL is not None:
         assert differences(counted(tmp_path)[0]) == []
+
+
+BODIES_APART_ONCE = {
+    13758: ("part3", 3, 3),  # 2e-4 beside the other five
+    40144: ("high2", 1, 3),  # 8e-5 of its legs' speeds
+    60637: ("top", 0, 1),
+    50776: ("part1", 1, 1),  # a screw on a screw: 1e-6 of the others' speeds
+}
+"""Bodies whose freedoms were once counted differently, by seed: translations and rotations.  Counted by rank with 60 digits."""
+
+
+@pytest.mark.parametrize("seed", BODIES_APART_ONCE)
+def test_both_count_what_a_body_can_do_though_it_is_little(tmp_path, seed):
+    name, translations, rotations = BODIES_APART_ONCE[seed]
+    kinefab.export(mechanism(seed), tmp_path / "scene.kinefab")
+    scene = json.loads((tmp_path / "scene.kinefab").read_text())
+    bodies = {scene["gameObjects"][b["gameObject"]]["name"]: b for b in scene["analysis"]["bodies"]}
+    assert (bodies[name]["translations"], bodies[name]["rotations"]) == (translations, rotations)
+    if TOOL is not None:
+        assert differences(counted(tmp_path)[0]) == []
+
+
+@needs_tool
+@pytest.mark.parametrize("seed", [11397, 13811])
+def test_a_motion_held_by_a_hair_is_told_as_unsure(tmp_path, seed):
+    """By the letter nothing moves; rows that a CAD program solved may be as far off.  The languages weigh rows in other units."""
+    kinefab.export(mechanism(seed), tmp_path / "scene.kinefab")
+    (said,) = counted(tmp_path)
+    assert {d["code"] for d in said["diagnostics"]} <= {"MOBILITY_UNSURE", "MOBILITY_FIRST_ORDER_DIFFERS"}
+    assert "MOBILITY_UNSURE" in {d["code"] for d in said["diagnostics"]}
 
 
 @pytest.mark.parametrize("turned", [1.0, -1.0])
@@ -180,11 +216,19 @@ COAXIAL = [(0, 1, (0, 0, 0)), (1, 2, (0, 0, 0.4)), (0, 2, (0, 0, 1))]
 FOUR_BAR = [(0, 1, (0, 0, 0)), (1, 2, (0.2, 0.5, 0)), (2, 3, (1.1, 0.7, 0)), (0, 3, (1, 0, 0))]
 
 
+ARM = [(0, 1, (0, 0, 0)), (1, 2, (1, 0, 0)), (2, 3, (2, 0.3, 0))]
+
+
 @pytest.mark.parametrize("noise", [0, 1e-9, 1e-8, 1e-7, 1e-6, 1e-5])
 @pytest.mark.parametrize(
     ("make", "mobility"),
-    [(lambda n: hinged(n, *COAXIAL), 2), (lambda n: hinged(n, *FOUR_BAR), 1), (schmidt, 1)],
-    ids=["three hinges on one axis", "four-bar", "Schmidt coupling"],
+    [
+        (lambda n: hinged(n, *COAXIAL), 2),
+        (lambda n: hinged(n, *FOUR_BAR), 1),
+        (schmidt, 1),
+        (lambda n: hinged(n, *ARM), 3),
+    ],
+    ids=["three hinges on one axis", "four-bar", "Schmidt coupling", "arm in a plane"],
 )
 def test_hinges_as_exact_as_a_cad_program_solves_them_move(tmp_path, make, mobility, noise):
     """Parallel axes that are off by a rounding, or by what a CAD program leaves, would lock the mechanism by the letter."""

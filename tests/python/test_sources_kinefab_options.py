@@ -93,7 +93,7 @@ BY_MORE_THAN_NAMES = (".FCStd", "lever_paper.csv")
     "source", [path for path in SOURCES if not path.name.endswith(BY_MORE_THAN_NAMES)], ids=lambda path: f"{path.parent.name}-{path.name}"
 )
 def test_a_prefab_of_a_scene_says_the_same(source: Path, tmp_path: Path):
-    for closures, physics in product(CLOSURES, PHYSICS):
+    for closures, physics in (("exact", "articulation"), ("minimal", "rigidbody")):  # the other two meet in these
         folders = [tmp_path / f"{name} {closures} {physics}" for name in ("direct", "again")]
         direct = export(source, folders[0] / "scene.prefab", closures, physics=physics)
         again = export(next(written(source, tmp_path, closures)), folders[1] / "scene.prefab", "exact", physics=physics)

@@ -318,6 +318,12 @@ public static class DiagnosticCodes
     /// <summary>{what} is {stated} in the file, counted from the source's constraints, and {counted} counted from the joints.</summary>
     public const string MobilityDiffers = "MOBILITY_DIFFERS";
 
+    /// <summary>
+    /// {what} is {stated} in the file, counted from the source's constraints, and {counted} counted from the joints, which hold a motion by
+    /// so little that either may be meant.
+    /// </summary>
+    public const string MobilityUnsure = "MOBILITY_UNSURE";
+
     /// <summary>First-order mobility at the exported pose is {stated} in the file and {counted} counted from the joints.</summary>
     public const string MobilityFirstOrderDiffers = "MOBILITY_FIRST_ORDER_DIFFERS";
 

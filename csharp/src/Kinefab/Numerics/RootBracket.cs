@@ -28,7 +28,7 @@ internal struct RootBracket
         _lastValue = lateValue;
         _other = early;
         _otherValue = earlyValue;
-        _share = 1 - guess;
+        _share = guess >= 0 && guess <= 1 ? 1 - guess : 0.5;
     }
 
     /// <summary>The last place that is known to lie before the root.</summary>

@@ -307,14 +307,17 @@ class _Builder:
 
         for own, other in self._beside_bases():
             keep(own, other, "part of the base of a joint")
+        touching = {
+            i: bodies[i] for i, own in enumerate(self.components) if any(isinstance(c, UnityCollider) for c in own)
+        }
         for pair in self.scene.apart:
             ids = (self.scene.nodes[pair.a].id, self.scene.nodes[pair.b].id)
             feature, kept = f"{pair.reason} of {ids[0]} and {ids[1]}", True
-            for a, b in product(self._bodies_of(pair.a, bodies), self._bodies_of(pair.b, bodies)):
+            for a, b in product(self._bodies_of(pair.a, touching), self._bodies_of(pair.b, touching)):
                 if a == b or not (self._moves(a) or self._moves(b)):
                     continue
                 own, other = (a, b) if self._moves(a) else (b, a)
-                whole = all(self._is_whole(body, node) for body, node in ((a, pair.a), (b, pair.b)))
+                whole = all(self._is_whole(body, node, touching) for body, node in ((a, pair.a), (b, pair.b)))
                 if own is None or other is None or not (whole or frozenset((a, b)) in joined):
                     kept = False
                 else:
@@ -350,23 +353,22 @@ class _Builder:
             isinstance(c, Rigidbody) and not c.isKinematic for c in self.components[body]
         )
 
-    def _bodies_of(self, node: int, bodies: Sequence[int | None]) -> list[int | None]:
-        """The Rigidbody that moves a node; of what stands those of all that it holds, each of which may have its own."""
-        own = bodies[self.object_of[node]]
+    def _bodies_of(self, node: int, touching: Mapping[int, int | None]) -> list[int | None]:
+        """The Rigidbody that moves a node; of what stands those of all that it holds, each of which may have its own.
+
+        touching: of each object with colliders the Rigidbody that moves it.
+        """
+        own = self._body(self.object_of[node])
         if self._moves(own):
             return [own]
         within = with_all_below(self.objects, self.object_of[node])
-        held = {bodies[i]: None for i in self._touching() if i in within and not self._moves(bodies[i])}
+        held = {body: None for i, body in touching.items() if i in within and not self._moves(body)}
         return list(held) or [own]
 
-    def _is_whole(self, body: int | None, node: int) -> bool:
-        """Whether all colliders of a Rigidbody are those of a node and of what stands below it."""
+    def _is_whole(self, body: int | None, node: int, touching: Mapping[int, int | None]) -> bool:
+        """Whether all colliders of a Rigidbody are those of a node and of what stands below it.  touching: see ``_bodies_of``."""
         within = with_all_below(self.objects, self.object_of[node])
-        return all(index in within for index in self._touching() if self._body(index) == body)
-
-    def _touching(self) -> list[int]:
-        """Objects with colliders."""
-        return [i for i, own in enumerate(self.components) if any(isinstance(c, UnityCollider) for c in own)]
+        return all(i in within for i, its in touching.items() if its == body)
 
     def _carrier(self, node: int) -> int:
         assert self.rigidbodies is not None

@@ -2,8 +2,10 @@ using System;
 using System.Collections.Generic;
 using System.IO;
 using System.Linq;
+using Kinefab.Document;
 using Kinefab.Kinematics;
 using Kinefab.Numerics;
+using Kinefab.Validation;
 using NUnit.Framework;
 
 namespace Kinefab.Tests.Kinematics;
@@ -52,6 +54,56 @@ public sealed class FreedomTests
         Assert.That(mechanism.ChooseFreedoms(), Has.Count.InRange(report.Mobility - report.Idle.Sum(idle => idle.Count), report.Mobility));
         foreach (MechanismCoordinate coordinate in mechanism.Coordinates.Where(c => !c.IsLocked))
             Assert.That(mechanism.Coordinates[mechanism.CoordinateNamed(coordinate.ShortName)], Is.SameAs(coordinate));
+    }
+
+    // One angle of the ball follows a hinge. The others are freedoms that can be named, and so held: left alone they drift by degrees, since what is
+    // turned about one axis after the other does not come back.
+    [Test]
+    public void Freedoms_OfABallThatACouplingTies_AreItsOtherAngles()
+    {
+        const ConfigurableJointMotion free = ConfigurableJointMotion.Free;
+        var ball = new ConfigurableJoint
+        {
+            XMotion = ConfigurableJointMotion.Locked,
+            YMotion = ConfigurableJointMotion.Locked,
+            ZMotion = ConfigurableJointMotion.Locked,
+            AngularXMotion = free,
+            AngularYMotion = free,
+            AngularZMotion = free,
+            Anchor = new Vector3d(0.3, 0.2, -0.1),
+        };
+        var document = new SceneDocument
+        {
+            GameObjects =
+            [
+                new GameObject { Id = "A", Name = "A", Components = [new Rigidbody(), ball] },
+                new GameObject { Id = "B", Name = "B", Transform = new Transform { LocalPosition = new(2, 0.4, 0.3) }, Components = [new Rigidbody(), new HingeJoint { Axis = new(0.2, 0.3, 1) }] },
+            ],
+            Couplings =
+            [
+                new Coupling
+                {
+                    Id = "c",
+                    A = new JointCoordinate { GameObject = 0, Component = 1, Coordinate = Coordinate.AngularX },
+                    B = new JointCoordinate { GameObject = 1, Component = 1, Coordinate = Coordinate.Angle },
+                    Ratio = 0.5,
+                },
+            ],
+        };
+        Mechanism mechanism = Mechanism.Create(SceneValidator.Validate(document).Scene!);
+        string[] names = ["A.angularY", "A.angularZ", "B.angle"];
+        Assert.That(mechanism.ChooseFreedoms().Select(i => mechanism.Coordinates[i].Name), Is.EqualTo(names));
+
+        var solver = new PositionSolver(mechanism);
+        MechanismState state = mechanism.NewState();
+        foreach (double turn in new[] { 0.0, 20, 75, 120, -35, 0 })
+        {
+            double[] values = [20, -15, turn];
+            DriveResult result = solver.Drive(state, names.Select((name, i) => new CoordinateTarget(mechanism.CoordinateNamed(name), values[i])).ToArray());
+            Assert.That(result.Converged, Is.True, $"{turn}: {result}");
+            Assert.That(state["A.angularX"], Is.EqualTo(2 * turn).Within(1e-9));
+            Assert.That(names.Select(name => state[name]), Is.EqualTo(values).Within(1e-9));
+        }
     }
 
     [Test]

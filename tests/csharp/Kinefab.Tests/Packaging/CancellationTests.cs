@@ -7,20 +7,28 @@ using Kinefab.Advice;
 using Kinefab.Document;
 using Kinefab.Dynamics;
 using Kinefab.Kinematics;
+using Kinefab.Numerics;
+using Kinefab.Tests.Dynamics.Rattle;
 using Kinefab.Validation;
 using NUnit.Framework;
 
 namespace Kinefab.Tests.Packaging;
 
-/// <summary>What reads, counts, moves along a way, or runs can be ended early, whatever scene it is given. A single step or pose cannot.</summary>
+/// <summary>
+/// What reads, counts, is made from a scene to be solved, moves along a way, or runs can be ended early, whatever scene it is given. A single step
+/// cannot: half of one is no state of a world.
+/// </summary>
 public sealed class CancellationTests
 {
     // What such calls give back.
     private static readonly HashSet<Type> Results = new()
     {
         typeof(SceneReading), typeof(SceneValidation), typeof(ValidScene), typeof(MobilityReport), typeof(SweepResult), typeof(RunResult), typeof(AdviceReport),
-        typeof((RangeLimit, RangeLimit)),
+        typeof((RangeLimit, RangeLimit)), typeof(DriveResult), typeof(IReadOnlyList<MotionBranch>), typeof(World),
     };
+
+    // Objects that take long to make.
+    private static readonly Type[] Makings = { typeof(PositionSolver) };
 
     [Test]
     public void PublicCalls_ThatMayTakeLong_CanBeCancelled()
@@ -30,6 +38,43 @@ public sealed class CancellationTests
             .Where(method => !method.IsSpecialName && Results.Contains(method.ReturnType))
             .ToArray();
         Assert.That(calls.Select(call => call.ReturnType).Distinct(), Is.EquivalentTo(Results));
-        Assert.That(calls.Where(call => call.GetParameters().All(p => p.ParameterType != typeof(CancellationToken))).Select(call => $"{call.DeclaringType}.{call}"), Is.Empty);
+        IEnumerable<MethodBase> all = calls.Concat<MethodBase>(Makings.SelectMany(type => type.GetConstructors()));
+        Assert.That(all.Where(call => call.GetParameters().All(p => p.ParameterType != typeof(CancellationToken))).Select(call => $"{call.DeclaringType}.{call}"), Is.Empty);
+    }
+
+    [Test]
+    public void CallsOnAWideGrid_CancelledOnTheWay_End()
+    {
+        ValidScene scene = SceneValidator.Validate(HubScenes.Grid(20)).Scene!;
+        Mechanism mechanism = Mechanism.Create(scene);
+        var solver = new PositionSolver(mechanism);
+        int last = scene.Document.GameObjects.Count - 1;
+        var far = new Vector3d(30, -40, 0);
+        var calls = new (string Name, Action<CancellationToken> Call)[]
+        {
+            ("World.Create unity", token => World.Create(scene, SolverKind.Unity, token)),
+            ("World.Create exact", token => World.Create(scene, SolverKind.Exact, token)),
+            ("PositionSolver", token => _ = new PositionSolver(mechanism, token)),
+            ("Close", token => solver.Close(Open(mechanism), token)),
+            ("Drag", token => solver.Drag(mechanism.NewState(), last, Vector3d.Zero, far, token)),
+            ("Branches", token => solver.Branches(mechanism.NewState(), 0, true, token)),
+            ("CountMobility", token => mechanism.CountMobility(null, token)),
+        };
+        foreach ((string name, Action<CancellationToken> call) in calls)
+        {
+            Assert.That(() => call(new CancellationToken(true)), Throws.InstanceOf<OperationCanceledException>(), name);
+        }
+
+        // What was ended leaves nothing behind.
+        Assert.That(solver.Close(Open(mechanism)).Converged, Is.True);
+    }
+
+    private static MechanismState Open(Mechanism mechanism)
+    {
+        MechanismState state = mechanism.NewState();
+        int body = mechanism.Bodies[mechanism.Bodies.Count - 1];
+        Pose pose = state.Pose(body);
+        state.SetPose(body, new Pose(pose.Position, Quaterniond.AxisAngle(Vector3d.UnitZ, 0.1) * pose.Rotation));
+        return state;
     }
 }

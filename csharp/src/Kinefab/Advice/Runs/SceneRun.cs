@@ -50,7 +50,7 @@ internal sealed class SceneRun
     /// <param name="prepare">Done to the world before its first step.</param>
     public static SceneRun Of(ValidScene scene, SolverKind solver, RunPlan plan, int substeps, CancellationToken cancellation, Action<World>? prepare = null)
     {
-        World world = World.Create(scene, solver);
+        World world = World.Create(scene, solver, cancellation);
         prepare?.Invoke(world);
         var run = new SceneRun(world, scene, plan);
         double dt = plan.Step / substeps;

@@ -35,7 +35,7 @@ internal sealed class Examination
     public Examination(ValidScene scene, AdviceOptions options, CancellationToken cancellation)
     {
         Scene = scene;
-        World = World.Create(scene);
+        World = World.Create(scene, cancellation: cancellation);
         double step = scene.Document.Physics.FixedTimestep;
         double wanted = Math.Max(FewestSamples, Math.Round((options.Seconds ?? StandardSeconds) / step));
         double most = (options.Seconds is null ? 1 : Patience) * MostSteps / Math.Max(1, World.Joints.Count + World.Bodies.Count);

@@ -1,5 +1,6 @@
 using System;
 using System.Collections.Generic;
+using System.Threading;
 using Kinefab.Joints;
 using Kinefab.Numerics;
 
@@ -49,9 +50,12 @@ internal sealed class LoopConsistencyProbe
 
     private readonly LaneBatch<ScalarLane> _batch;
     private readonly double _length;
+    private readonly CancellationToken _cancellation;
 
-    private LoopConsistencyProbe(Island island, MultibodySystem mechanism)
+    private LoopConsistencyProbe(Island island, MultibodySystem mechanism, CancellationToken cancellation)
     {
+        _cancellation = cancellation;
+        island.Order(cancellation);
         _batch = new LaneBatch<ScalarLane>(island, new Workspace<ScalarLane>(island));
         LaneTransfer<ScalarLane>.GatherConstants(_batch, 0, island, mechanism);
         LaneTransfer<ScalarLane>.Gather(_batch, mechanism, 1);
@@ -79,14 +83,17 @@ internal sealed class LoopConsistencyProbe
     }
 
     /// <summary>Each island with such a loop.</summary>
-    public static List<InconsistentLoop> Find(MultibodySystem mechanism)
+    /// <param name="mechanism">Not changed.</param>
+    /// <param name="cancellation">Ends the search early, with an OperationCanceledException.</param>
+    public static List<InconsistentLoop> Find(MultibodySystem mechanism, CancellationToken cancellation = default)
     {
         var found = new List<InconsistentLoop>();
         foreach (Island island in IslandFinder.Find(mechanism))
         {
+            cancellation.ThrowIfCancellationRequested();
             island.Loops = LoopConsistency.Inconsistent;
             LoopConsistency fit = island.HasLoops && Array.Exists(island.Blocks, block => block.Angular != AngularForm.None)
-                ? new LoopConsistencyProbe(island, mechanism).Fit()
+                ? new LoopConsistencyProbe(island, mechanism, cancellation).Fit()
                 : LoopConsistency.Exact;
             if (fit != LoopConsistency.Exact)
             {
@@ -242,6 +249,7 @@ internal sealed class LoopConsistencyProbe
     {
         for (int i = 0; i < Projections; i++)
         {
+            _cancellation.ThrowIfCancellationRequested();
             Impulses<ScalarLane>.NegativeSpeeds(_batch, false);
             if (MostAngular(_batch.Work.Solution) < LeastSpeed * Fastest())
             {
@@ -290,6 +298,7 @@ internal sealed class LoopConsistencyProbe
 
     private void Rebuild()
     {
+        _cancellation.ThrowIfCancellationRequested();
         RattleStep<ScalarLane>.Rebuild(_batch);
         if (_batch.ActiveSet != null)
         {

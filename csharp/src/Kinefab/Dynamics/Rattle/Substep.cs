@@ -19,7 +19,7 @@ internal sealed class Substep
     private const double LeastFlight = 0.1;
 
     // Trials of which none may stand before the limit: it is passed from the start on.
-    private const int MostLate = 6;
+    private const int MostLate = 3;
 
     // A piece up to a leap is worth its cost from this share of the drift on.
     private const double LeastSure = 0.05;
@@ -108,13 +108,15 @@ internal sealed class Substep
                 return false;
             }
 
-            double nearest = scalars.NearestApart(out int first);
-            if (nearest >= -MostPassed * tolerance)
+            double passed = scalars.NearestApart();
+            if (passed >= -MostPassed * tolerance)
             {
                 return Complete(left, h, tolerance);
             }
 
-            if (!TryReach(left, scalars.Row(first), tolerance, out double piece) || !Complete(piece, h, tolerance))
+            // None where a pose so far off has no number for it.
+            int first = scalars.FirstReached(left);
+            if (first < 0 || !TryReach(left, passed, scalars.Row(first), tolerance, out double piece) || !Complete(piece, h, tolerance))
             {
                 return false;
             }
@@ -216,10 +218,9 @@ internal sealed class Substep
 
     // The drift as long as leads to the first limit on its way: the least C of those that are apart, by Chandrupatla's rule, which takes the inverse
     // parabola through the last three lengths where it may be trusted and halves the bracket elsewhere. Source: Chandrupatla 1997.
-    private bool TryReach(double longest, ScalarRow first, double tolerance, out double piece)
+    private bool TryReach(double longest, double passed, ScalarRow first, double tolerance, out double piece)
     {
         double aim = (MostShort - MostPassed) / 2 * tolerance;
-        double passed = first.End.GeometricError;
         double before = first.IsActive ? Math.Max(first.StartError, Math.Max(first.StartSpeed * longest, tolerance)) : -passed;
         var bracket = new RootBracket(0, before, longest, passed - aim, first.ReachedAt(longest));
         for (int trial = 0; trial < MaxTrials; trial++)

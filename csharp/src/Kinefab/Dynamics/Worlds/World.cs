@@ -128,7 +128,7 @@ public sealed partial class World
     /// <param name="path">A scene file, NAME.kinefab.</param>
     /// <param name="solver">As Unity moves it, or as it truly moves.</param>
     /// <param name="options">Null: unknown fields are warnings, limits the default ones.</param>
-    /// <param name="cancellation">Ends the reading early.</param>
+    /// <param name="cancellation">Ends the reading, or the making, early.</param>
     /// <returns>A world at rest unless the scene says otherwise; warnings stand in its scene's <see cref="ValidScene.Report"/>.</returns>
     /// <exception cref="SceneFormatException">The file has errors; the exception holds the report.</exception>
     /// <exception cref="OperationCanceledException">It was cancelled.</exception>
@@ -138,13 +138,15 @@ public sealed partial class World
     /// RunResult run = world.Run(seconds: 6, record: new[] { "Shaft", "Slide" });
     /// </code></example>
     public static World Load(string path, SolverKind solver = SolverKind.Unity, SceneReadOptions? options = null, CancellationToken cancellation = default) =>
-        Create(ValidScene.Load(path, options, cancellation), solver);
+        Create(ValidScene.Load(path, options, cancellation), solver, cancellation);
 
     /// <summary>The bodies, joints and couplings of a scene at its start pose. Inactive objects are left out.</summary>
     /// <param name="scene">A valid one.</param>
     /// <param name="solver">As Unity moves it, or as it truly moves.</param>
+    /// <param name="cancellation">Ends the making early: of wide grids of closed cells it takes seconds.</param>
     /// <returns>At time zero, nothing moved yet.</returns>
-    public static World Create(ValidScene scene, SolverKind solver = SolverKind.Unity)
+    /// <exception cref="OperationCanceledException">It was cancelled.</exception>
+    public static World Create(ValidScene scene, SolverKind solver = SolverKind.Unity, CancellationToken cancellation = default)
     {
         if (scene is null)
         {
@@ -152,7 +154,7 @@ public sealed partial class World
         }
 
         var builder = new WorldBuilder(scene, locksAsJoints: solver == SolverKind.Exact);
-        List<InconsistentLoop> loops = LoopConsistencyProbe.Find(builder.MultibodySystem);
+        List<InconsistentLoop> loops = LoopConsistencyProbe.Find(builder.MultibodySystem, cancellation);
         ISolver chosen = solver switch
         {
             SolverKind.Unity => new PgsSolver(builder.MultibodySystem, builder.Articulated),

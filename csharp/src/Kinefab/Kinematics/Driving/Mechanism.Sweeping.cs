@@ -27,6 +27,6 @@ public sealed partial class Mechanism
     public SweepResult Sweep(string coordinate, double from, double to, int steps = 72, IProgress<int>? progress = null, CancellationToken cancellation = default)
     {
         int index = CoordinateNamed(coordinate);
-        return new Sweep(new PositionSolver(this)).Run(NewState(), index, from, to, steps, progress, cancellation);
+        return new Sweep(new PositionSolver(this, cancellation)).Run(NewState(), index, from, to, steps, progress, cancellation);
     }
 }

@@ -43,7 +43,7 @@ internal sealed class PointDrag
         _body = body;
         _path = RowPath.Between(mechanism.Tree, body, KinematicTree.Ground);
         var paths = new List<RowPath>(mechanism.Rows.All) { _path };
-        _normal = new NormalEquations(mechanism.Tree, paths);
+        _normal = new NormalEquations(mechanism.Tree, paths, newton.Cancellation);
         _motion = new TreeMotion(mechanism.Linkage, _normal.Firsts, _normal.Step.Length);
         _equations = new PositionEquations(mechanism.Linkage, _motion, _normal);
         _good = mechanism.NewState();
@@ -75,6 +75,7 @@ internal sealed class PointDrag
         bool withCurvature = true;
         for (int n = 0; n < MaxIterations && distance > ReachedDistance && damping < LargestDamping; n++)
         {
+            _newton.Cancellation.ThrowIfCancellationRequested();
             bool released = Pull(state, point, target, damping, withCurvature, out double size);
             limits.Measure(state.Poses);
             bool closed = _newton.Close(state);

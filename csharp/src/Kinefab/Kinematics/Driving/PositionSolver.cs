@@ -19,10 +19,12 @@ public sealed class PositionSolver
 
     /// <summary>A solver for a mechanism.</summary>
     /// <param name="mechanism">Whose states it moves; one solver serves one thread.</param>
-    public PositionSolver(Mechanism mechanism)
+    /// <param name="cancellation">Ends the making early: of wide grids of closed cells it takes seconds.</param>
+    /// <exception cref="OperationCanceledException">It was cancelled.</exception>
+    public PositionSolver(Mechanism mechanism, CancellationToken cancellation = default)
     {
         Mechanism = mechanism ?? throw new ArgumentNullException(nameof(mechanism));
-        _newton = new NewtonSolver(mechanism.Linkage);
+        _newton = new NewtonSolver(mechanism.Linkage, cancellation);
         _drive = new CoordinateDrive(mechanism, _newton);
         MechanismState start = mechanism.NewState();
         _newton.Close(start);
@@ -54,7 +56,7 @@ public sealed class PositionSolver
     /// <exception cref="OperationCanceledException">It was cancelled.</exception>
     public DriveResult Drive(MechanismState state, ReadOnlySpan<CoordinateTarget> targets, CancellationToken cancellation = default)
     {
-        Check(state);
+        Begin(state, cancellation);
         for (int i = 0; i < targets.Length; i++)
         {
             Check(targets[i].Coordinate, nameof(targets));
@@ -110,10 +112,12 @@ public sealed class PositionSolver
     /// <param name="state">Closed; not changed.</param>
     /// <param name="coordinate">Index into the mechanism's coordinates.</param>
     /// <param name="isRising">Driven upwards, or downwards.</param>
+    /// <param name="cancellation">Ends the search early.</param>
     /// <returns>One entry a way, each with the rates of all coordinates against the driven one; empty at a dead centre.</returns>
-    public IReadOnlyList<MotionBranch> Branches(MechanismState state, int coordinate, bool isRising = true)
+    /// <exception cref="OperationCanceledException">It was cancelled.</exception>
+    public IReadOnlyList<MotionBranch> Branches(MechanismState state, int coordinate, bool isRising = true, CancellationToken cancellation = default)
     {
-        Check(state);
+        Begin(state, cancellation);
         Check(coordinate, nameof(coordinate));
         double unit = Mechanism.Coordinates[coordinate].IsAngle ? 1 : Mechanism.Length;
         ReadOnlySpan<double> step = stackalloc double[] { (isRising ? 1 : -1) * CoordinateDrive.LeapStep * unit };
@@ -128,14 +132,16 @@ public sealed class PositionSolver
     /// <param name="gameObject">A GameObject that a Rigidbody moves.</param>
     /// <param name="point">In the GameObject's own unscaled frame, metres.</param>
     /// <param name="target">World, metres.</param>
+    /// <param name="cancellation">Ends the pull early; the state then stands somewhere on the way.</param>
     /// <returns>Where it rests: a limit or the end of its reach is a result, not an error.</returns>
     /// <exception cref="ArgumentException">The state is another mechanism's, no Rigidbody moves the GameObject, there is none, or a number is not finite.</exception>
+    /// <exception cref="OperationCanceledException">It was cancelled.</exception>
     /// <example><code>
     /// solver.Drag(state, "SliderD:1", point: Vector3d.Zero, target: new Vector3d(-0.1, 0.02, 0));
     /// </code></example>
-    public DriveResult Drag(MechanismState state, int gameObject, Vector3d point, Vector3d target)
+    public DriveResult Drag(MechanismState state, int gameObject, Vector3d point, Vector3d target, CancellationToken cancellation = default)
     {
-        Check(state);
+        Begin(state, cancellation);
         if (!point.IsFinite || !target.IsFinite)
             throw new ArgumentException("The point or the target is not finite.", nameof(target));
         int body = Mechanism.BodyOf(gameObject);
@@ -157,17 +163,21 @@ public sealed class PositionSolver
     /// <param name="gameObject">Id, or a name that no other has, of a GameObject that a Rigidbody moves.</param>
     /// <param name="point">In the GameObject's own unscaled frame, metres.</param>
     /// <param name="target">World, metres.</param>
+    /// <param name="cancellation">Ends the pull early; the state then stands somewhere on the way.</param>
     /// <returns>How near the point came, and what ended the pull.</returns>
     /// <exception cref="ArgumentException">As for the other one; or none has the id or name, or several have the name: the message says which there are.</exception>
-    public DriveResult Drag(MechanismState state, string gameObject, Vector3d point, Vector3d target) =>
-        Drag(state, Mechanism.GameObjectNamed(gameObject), point, target);
+    /// <exception cref="OperationCanceledException">It was cancelled.</exception>
+    public DriveResult Drag(MechanismState state, string gameObject, Vector3d point, Vector3d target, CancellationToken cancellation = default) =>
+        Drag(state, Mechanism.GameObjectNamed(gameObject), point, target, cancellation);
 
     /// <summary>Closes all joints and couplings from wherever the state stands, moving the joints little; limits are not looked at.</summary>
     /// <param name="state">Where to start from; moved.</param>
+    /// <param name="cancellation">Ends the closing early; the state then stands somewhere on the way.</param>
     /// <returns>The gap that is left, and whether it is within tolerance.</returns>
-    public DriveResult Close(MechanismState state)
+    /// <exception cref="OperationCanceledException">It was cancelled.</exception>
+    public DriveResult Close(MechanismState state, CancellationToken cancellation = default)
     {
-        Check(state);
+        Begin(state, cancellation);
         _newton.Iterations = 0;
         _newton.ClearDriven();
         _newton.Limits.Begin(state.Poses);
@@ -183,8 +193,9 @@ public sealed class PositionSolver
             throw new ArgumentOutOfRangeException(argument, $"There is no coordinate {coordinate}; {SceneNames.There(Mechanism.Coordinates.Select((c, i) => $"{i} {c.Name}").ToArray())}");
     }
 
-    private void Check(MechanismState state)
+    private void Begin(MechanismState state, CancellationToken cancellation)
     {
+        _newton.Cancellation = cancellation;
         if (state is null)
             throw new ArgumentNullException(nameof(state));
         if (!ReferenceEquals(state.Mechanism, Mechanism))

@@ -74,10 +74,10 @@ public sealed class Sweep
 
             if (result.Branches > 0 && branches.Count == 0)
             {
-                branches = _solver.Branches(last, coordinate, target > before);
+                branches = _solver.Branches(last, coordinate, target > before, cancellation);
             }
 
-            if (i > 0 && !Returns(state, last, coordinate))
+            if (i > 0 && !Returns(state, last, coordinate, cancellation))
             {
                 jumps.Add(state.Coordinate(coordinate));
             }
@@ -131,10 +131,10 @@ public sealed class Sweep
         return new RangeLimit(RangeEnd.Unknown, value, null);
     }
 
-    private bool Returns(MechanismState state, MechanismState before, int coordinate)
+    private bool Returns(MechanismState state, MechanismState before, int coordinate, CancellationToken cancellation)
     {
         _back.CopyFrom(state);
-        _solver.Drive(_back, coordinate, before.Coordinate(coordinate));
+        _solver.Drive(_back, coordinate, before.Coordinate(coordinate), cancellation);
 
         // A way back that ends just short of a dead centre is a way back.
         // Poses, not coordinates: single angles of a joint that turns freely about several axes lose their meaning at a half turn.

@@ -1,5 +1,6 @@
 using System;
 using System.Collections.Generic;
+using System.Threading;
 using Kinefab.Numerics;
 
 namespace Kinefab.Kinematics;
@@ -25,7 +26,7 @@ internal sealed class NormalEquations
     private double _largest;
 
     /// <summary>Reserves the blocks that rows along the given paths need.</summary>
-    public NormalEquations(KinematicTree tree, IReadOnlyList<RowPath> paths)
+    public NormalEquations(KinematicTree tree, IReadOnlyList<RowPath> paths, CancellationToken cancellation = default)
     {
         _freedoms = tree.Freedoms;
         var node = new int[_freedoms.Length];
@@ -44,19 +45,7 @@ internal sealed class NormalEquations
             }
         }
 
-        var couplings = new List<(int A, int B)>();
-        foreach (RowPath path in paths)
-        {
-            for (int k = 0; k < path.Bodies.Length; k++)
-            {
-                for (int l = 0; l < k; l++)
-                {
-                    couplings.Add((node[path.Bodies[k]], node[path.Bodies[l]]));
-                }
-            }
-        }
-
-        _pattern = new BlockPattern(sizes.ToArray(), couplings);
+        _pattern = new BlockPattern(sizes.ToArray(), Couplings(paths, node), cancellation);
         _matrix = new double[_pattern.Length];
         _step = new double[_pattern.RowCount];
         _pivots = new double[_pattern.RowCount];
@@ -69,6 +58,7 @@ internal sealed class NormalEquations
         _dual = new DualEquations(Firsts, _step.Length);
         foreach (RowPath path in paths)
         {
+            cancellation.ThrowIfCancellationRequested();
             if (!_blocks.ContainsKey(path))
             {
                 _blocks.Add(path, BlocksOf(path, node));
@@ -317,6 +307,21 @@ internal sealed class NormalEquations
             for (int j = 0; j < columns.Length; j++)
             {
                 _matrix[offset++] += rows[i] * columns[j];
+            }
+        }
+    }
+
+    // All of a path's bodies with each other: of long paths these are many.
+    private static IEnumerable<(int A, int B)> Couplings(IReadOnlyList<RowPath> paths, int[] node)
+    {
+        foreach (RowPath path in paths)
+        {
+            for (int k = 0; k < path.Bodies.Length; k++)
+            {
+                for (int l = 0; l < k; l++)
+                {
+                    yield return (node[path.Bodies[k]], node[path.Bodies[l]]);
+                }
             }
         }
     }

@@ -71,6 +71,13 @@ internal static class MechanismScale
         }
     }
 
+    /// <summary>Where the joint that carries a body holds it, or its own origin where none does; world.</summary>
+    public static Vector3d Place(Linkage linkage, int body, Pose[] poses)
+    {
+        int joint = linkage.Tree.TreeJoints[body];
+        return joint < 0 ? poses[body].Position : Anchor(linkage.Joints[joint], poses);
+    }
+
     private static Vector3d Anchor(JointModel joint, Pose[] poses) =>
         Linkage.PoseOf(joint.Body1, poses).Point(joint.Frame1.Position);
 }

@@ -7,40 +7,39 @@ namespace Kinefab.Kinematics;
 /// <summary>
 /// What every body can do: the span of its twists over all motions of the mechanism. Down the tree a body's twists are its
 /// parent's and what its own freedoms add, so each costs what its own joint does. Motions that are done with (free ones, and
-/// those of a block that has no more bodies further down) are kept as six rows: of a QR factorisation, with the same
-/// singular values. Source: Golub and Van Loan, Matrix Computations, 5.2.
+/// those of a block that has no more bodies further down) are kept as a span of six at most. The same as
+/// kinefab/analysis/findings/freedoms.py.
 /// </summary>
 internal sealed class BodyTwists
 {
     // Velocities are of length 1 altogether, so what is small in one body is small in itself, not only beside the rest.
-    private const double LeastMotion = 1e-6;
+    private const double LeastMotion = 1e-7;
+
+    // Sine of the angle up to which directions of different joints are one: no CAD program leaves axes further off.
+    private const double SameDirection = 1e-4;
     private const int Width = 6;
 
-    private readonly double _leastMotion = LeastMotion;
     private readonly Linkage _linkage;
     private readonly NewtonSolver _newton;
+    private readonly Pose[] _poses;
     private readonly IndependentLinkages _parts;
     private readonly LoopMobility[] _loops;
     private readonly int[] _places;
     private readonly int[] _ends;
     private readonly int[][] _moverPlaces;
-    private readonly double[][] _settled;
+    private readonly List<double[]>[] _settled;
     private readonly List<(int Block, double[,] Twists)>[] _open;
 
-    private BodyTwists(Linkage linkage, NewtonSolver newton, IndependentLinkages parts, LoopMobility[] loops)
+    private BodyTwists(Linkage linkage, NewtonSolver newton, Pose[] poses, IndependentLinkages parts, LoopMobility[] loops)
     {
         _linkage = linkage;
         _newton = newton;
+        _poses = poses;
         _parts = parts;
         _loops = loops;
-        foreach (LoopMobility loop in loops)
-        {
-            _leastMotion = Math.Max(_leastMotion, loop.Here.Noise);
-        }
-
         _places = new int[linkage.BodyCount];
         _ends = new int[linkage.BodyCount];
-        _settled = new double[linkage.BodyCount][];
+        _settled = new List<double[]>[linkage.BodyCount];
         _open = new List<(int, double[,])>[linkage.BodyCount];
         Number(linkage.Tree);
         _moverPlaces = new int[loops.Length][];
@@ -58,12 +57,13 @@ internal sealed class BodyTwists
 
     /// <summary>Translations and rotations of each body.</summary>
     /// <param name="mechanism">Whose.</param>
-    /// <param name="newton">Its freedoms' twists at the pose that is looked at.</param>
+    /// <param name="newton">Its freedoms' twists at the poses that are looked at.</param>
+    /// <param name="poses">These poses.</param>
     /// <param name="parts">Its blocks.</param>
-    /// <param name="loops">Their velocities at that pose.</param>
-    public static List<BodyMobility> Of(Mechanism mechanism, NewtonSolver newton, IndependentLinkages parts, LoopMobility[] loops)
+    /// <param name="loops">Their velocities at these poses.</param>
+    public static List<BodyMobility> Of(Mechanism mechanism, NewtonSolver newton, Pose[] poses, IndependentLinkages parts, LoopMobility[] loops)
     {
-        var twists = new BodyTwists(mechanism.Linkage, newton, parts, loops);
+        var twists = new BodyTwists(mechanism.Linkage, newton, poses, parts, loops);
         var bodies = new List<BodyMobility>();
         foreach (int body in mechanism.Tree.Order)
         {
@@ -106,46 +106,70 @@ internal sealed class BodyTwists
     {
         int parent = _linkage.Tree.Parents[body];
         int own = _parts.BlockOf(body);
-        double[] settled = parent < 0 ? new double[Width * Width] : (double[])_settled[parent].Clone();
+        Vector3d point = (MechanismScale.Place(_linkage, body, _poses) - _linkage.Origin) * (1 / _linkage.Length);
+        var settled = new List<double[]>();
+        var going = new List<double[]>();
         var open = new List<(int Block, double[,] Twists)>();
         bool isOpen = false;
-        foreach ((int block, double[,] twists) in parent < 0 ? open.ToArray() : _open[parent].ToArray())
+        foreach ((int block, double[,] twists) in parent < 0 ? open : _open[parent])
         {
             isOpen |= block == own;
-            if (block == own)
+            bool goesOn = block == own || GoesOn(block, body);
+            double[,] here = block == own ? Moved(twists, block, body) : twists;
+            (goesOn ? going : settled).AddRange(Span(here, point, block));
+            if (goesOn)
             {
-                open.Add((block, Moved(twists, block, body)));
-            }
-            else if (GoesOn(block, body))
-            {
-                open.Add((block, twists));
-            }
-            else
-            {
-                Append(settled, twists);
+                open.Add((block, here));
             }
         }
 
         if (own >= 0 && !isOpen)
         {
-            open.Add((own, Moved(new double[_loops[own].FirstOrder, Width], own, body)));
+            double[,] here = Moved(new double[_loops[own].FirstOrder, Width], own, body);
+            going.AddRange(Span(here, point, own));
+            open.Add((own, here));
         }
 
         if (own < 0 && _linkage.Tree.Freedoms[body] > 0)
         {
-            Append(settled, Free(body));
+            settled.AddRange(TwistSpan.Of(At(Free(body), point), LeastMotion));
         }
 
-        _settled[body] = settled;
-        _open[body] = open;
-        double[] all = (double[])settled.Clone();
-        foreach ((_, double[,] twists) in open)
+        List<double[]> before = parent < 0 ? new List<double[]>() : _settled[parent];
+        if (settled.Count > 0)
         {
-            Append(all, twists);
+            settled.AddRange(TwistSpan.Of(At(before, point), LeastMotion));
+            before = At(TwistSpan.Of(settled, SameDirection), -point);
         }
 
-        rotations = RankOf(all, Width / 2);
-        return RankOf(all, 0);
+        _settled[body] = before;
+        _open[body] = open;
+        if (before.Count == Width)
+        {
+            rotations = Width / 2;
+            return Width;
+        }
+
+        going.AddRange(TwistSpan.Of(At(before, point), LeastMotion));
+        List<double[]> all = TwistSpan.Of(going, SameDirection);
+        rotations = Rotations(all);
+        return all.Count;
+    }
+
+    // What may be in a block's velocity without being in its motion is none: a parallelogram's link with axes off by a little does not turn.
+    private List<double[]> Span(double[,] twists, Vector3d point, int block)
+    {
+        double least = Math.Max(LeastMotion, _loops[block].Here.Noise);
+        List<double[]> here = At(twists, point);
+        foreach (double[] twist in here)
+        {
+            for (int i = 0; i < Width; i++)
+            {
+                twist[i] = Math.Abs(twist[i]) > least ? twist[i] : 0;
+            }
+        }
+
+        return TwistSpan.Of(here, least);
     }
 
     private bool GoesOn(int block, int body)
@@ -193,70 +217,49 @@ internal sealed class BodyTwists
         }
     }
 
-    // Givens rotations take each new row into the upper triangle.
-    private static void Append(double[] triangle, double[,] rows)
+    // Twists at the mechanism's origin as they are at another point, in the mechanism's lengths from there; and back by its opposite.
+    private static List<double[]> At(List<double[]> twists, Vector3d point)
     {
-        var row = new double[Width];
-        for (int m = 0; m < rows.GetLength(0); m++)
+        var moved = new List<double[]>(twists.Count);
+        foreach (double[] twist in twists)
         {
-            for (int i = 0; i < Width; i++)
-            {
-                row[i] = rows[m, i];
-            }
-
-            for (int k = 0; k < Width; k++)
-            {
-                double a = triangle[k * Width + k];
-                double length = Math.Sqrt(a * a + row[k] * row[k]);
-                double c = length == 0 ? 1 : a / length;
-                double s = length == 0 ? 0 : row[k] / length;
-                for (int i = k; i < Width; i++)
-                {
-                    double above = triangle[k * Width + i];
-                    triangle[k * Width + i] = c * above + s * row[i];
-                    row[i] = c * row[i] - s * above;
-                }
-            }
+            var turn = new Vector3d(twist[3], twist[4], twist[5]);
+            Vector3d linear = new Vector3d(twist[0], twist[1], twist[2]) + Vector3d.Cross(turn, point);
+            moved.Add(new[] { linear.X, linear.Y, linear.Z, turn.X, turn.Y, turn.Z });
         }
+
+        return moved;
     }
 
-    // Of the columns from one on. Most bodies show few motions: then the transpose of the rows that are not zero has fewer columns.
-    private int RankOf(double[] triangle, int from)
+    private static List<double[]> At(double[,] twists, Vector3d point)
     {
-        Span<int> rows = stackalloc int[Width];
-        int count = 0;
-        for (int i = 0; i < Width; i++)
+        var rows = new List<double[]>(twists.GetLength(0));
+        for (int m = 0; m < twists.GetLength(0); m++)
         {
-            bool isZero = true;
-            foreach (double entry in triangle.AsSpan(i * Width + from, Width - from))
+            var row = new double[Width];
+            for (int i = 0; i < Width; i++)
             {
-                isZero &= entry == 0;
+                row[i] = twists[m, i];
             }
 
-            if (!isZero)
+            rows.Add(row);
+        }
+
+        return At(rows, point);
+    }
+
+    // Independent directions that orthonormal twists turn about.
+    private static int Rotations(List<double[]> twists)
+    {
+        var turns = new double[twists.Count, Width / 2];
+        for (int m = 0; m < twists.Count; m++)
+        {
+            for (int i = 0; i < Width / 2; i++)
             {
-                rows[count++] = i;
+                turns[m, i] = twists[m][Width / 2 + i];
             }
         }
 
-        bool isFew = 2 * count <= Width - from;
-        var matrix = isFew ? new double[Width - from, count] : new double[count, Width - from];
-        for (int i = 0; i < count; i++)
-        {
-            for (int j = from; j < Width; j++)
-            {
-                double entry = triangle[rows[i] * Width + j];
-                if (isFew)
-                {
-                    matrix[j - from, i] = entry;
-                }
-                else
-                {
-                    matrix[i, j - from] = entry;
-                }
-            }
-        }
-
-        return new SingularValues(matrix).Rank(_leastMotion);
+        return new SingularValues(turns).Rank(SameDirection);
     }
 }

@@ -18,6 +18,12 @@ internal sealed class FiniteMobility
     private const double Survives = 0.05;
     private const double Whole = 0.9;
 
+    // What is left of an obstructed velocity is the root of the closing error, this much at most, whatever the way.
+    private const double LeftOfObstructed = 5e-5;
+
+    // Times that what is left of velocities is tried again.
+    private const int Rounds = 3;
+
     // Of a step along a velocity. What is left of one that is obstructed is no share of the way but what the closing error hides: where a
     // steep coupling leaves little of the way to what is obstructed, a longer one tells.
     private static readonly double[] ProbeLengths = { 0.01, 0.05, 0.2 };
@@ -49,18 +55,11 @@ internal sealed class FiniteMobility
 
         var space = new VelocitySpace(_linkage, _newton, _blocks, state);
         int count = 0;
-        MechanismState moved = state.Clone();
         foreach (double length in ProbeLengths)
         {
-            var survivors = new List<double[]>();
-            foreach (double[] vector in space.Basis)
-            {
-                cancellation.ThrowIfCancellationRequested();
-                survivors.Add(Probe(state, moved, vector, length));
-            }
-
-            count = Rank(survivors, out bool isInDoubt);
-            if (!isInDoubt)
+            double[] shares = LeftOf(space.Basis, state, length, cancellation);
+            count = Array.FindAll(shares, share => share > Survives).Length;
+            if (count == Array.FindAll(shares, share => share > Whole).Length)
             {
                 break;
             }
@@ -101,7 +100,7 @@ internal sealed class FiniteMobility
     }
 
     // What is left of a velocity, as a share of how far it was followed.
-    private double[] Probe(MechanismState state, MechanismState moved, double[] vector, double length)
+    private double[] Probe(MechanismState state, MechanismState moved, double[] vector, double length, out bool isClosed)
     {
         moved.CopyFrom(state);
         var step = new double[vector.Length];
@@ -112,8 +111,8 @@ internal sealed class FiniteMobility
 
         _newton.Motion.Start(moved.Poses);
         _newton.Motion.Move(moved.Poses, step);
-        _newton.Close(moved);
         var left = new double[step.Length];
+        isClosed = _newton.Close(moved);
         for (int i = 0; i < left.Length; i++)
         {
             left[i] = (step[i] + _newton.Closing[i]) / length;
@@ -122,27 +121,70 @@ internal sealed class FiniteMobility
         return left;
     }
 
-    private static int Rank(List<double[]> survivors, out bool isInDoubt)
+    // Shares, falling, of independent directions that are left of velocities. An obstructed one takes a motion back along with it: what is
+    // left of velocities that hold both is tried again by itself.
+    private double[] LeftOf(IReadOnlyList<double[]> velocities, MechanismState state, double length, CancellationToken cancellation)
     {
-        isInDoubt = false;
-        if (survivors.Count == 0)
+        double gone = LeftOfObstructed / length;
+        MechanismState moved = state.Clone();
+        for (int round = 1; ; round++)
         {
-            return 0;
-        }
-
-        // One column for each survivor, so that their span is counted, not the freedoms they touch.
-        var matrix = new double[survivors[0].Length, survivors.Count];
-        for (int j = 0; j < survivors.Count; j++)
-        {
-            for (int i = 0; i < survivors[j].Length; i++)
+            var left = new List<double[]>();
+            bool areClosed = true;
+            foreach (double[] velocity in velocities)
             {
-                matrix[i, j] = survivors[j][i];
+                cancellation.ThrowIfCancellationRequested();
+                double[] share = Probe(state, moved, velocity, length, out bool isClosed);
+
+                // What does not come back onto the joints may hold a motion; by itself it has kept nothing.
+                left.Add(isClosed || round < Rounds ? share : new double[share.Length]);
+                areClosed &= isClosed;
+            }
+
+            SingularValues values = Decomposed(left);
+            if (round == Rounds || (areClosed && !Array.Exists(values.Values, share => share > gone && share < Whole)))
+            {
+                return values.Values;
+            }
+
+            velocities = Directions(left, values, values.Rank(gone));
+        }
+    }
+
+    // One column for each velocity, so that their span is counted, not the freedoms they touch.
+    private static SingularValues Decomposed(List<double[]> columns)
+    {
+        var matrix = new double[columns.Count == 0 ? 0 : columns[0].Length, columns.Count];
+        for (int j = 0; j < columns.Count; j++)
+        {
+            for (int i = 0; i < columns[j].Length; i++)
+            {
+                matrix[i, j] = columns[j][i];
             }
         }
 
-        var values = new SingularValues(matrix);
-        int rank = values.Rank(Survives);
-        isInDoubt = rank > values.Rank(Whole);
-        return rank;
+        return new SingularValues(matrix);
+    }
+
+    // The left singular vectors of the first singular values.
+    private static List<double[]> Directions(List<double[]> columns, SingularValues values, int count)
+    {
+        var directions = new List<double[]>();
+        for (int k = 0; k < count; k++)
+        {
+            var direction = new double[columns[0].Length];
+            for (int j = 0; j < columns.Count; j++)
+            {
+                double share = values.Vector(j, k) / values.Values[k];
+                for (int i = 0; i < direction.Length; i++)
+                {
+                    direction[i] += share * columns[j][i];
+                }
+            }
+
+            directions.Add(direction);
+        }
+
+        return directions;
     }
 }

@@ -26,10 +26,10 @@ internal sealed class FreedomChoice
     private readonly int[] _free;
     private readonly int[] _turns;
 
-    private FreedomChoice(Mechanism mechanism)
+    private FreedomChoice(Mechanism mechanism, CancellationToken cancellation)
     {
         _mechanism = mechanism;
-        var newton = new NewtonSolver(mechanism.Linkage);
+        var newton = new NewtonSolver(mechanism.Linkage, cancellation);
         _state = mechanism.NewState();
         newton.Close(_state);
         newton.Motion.Start(_state.Poses);
@@ -47,7 +47,7 @@ internal sealed class FreedomChoice
     /// <summary>Indices of coordinates, rising.</summary>
     public static IReadOnlyList<int> Of(Mechanism mechanism, CancellationToken cancellation)
     {
-        var choice = new FreedomChoice(mechanism);
+        var choice = new FreedomChoice(mechanism, cancellation);
         var chosen = new List<int>();
         var tied = new List<int>?[choice._parts.Count];
         for (int i = 0; i < mechanism.Coordinates.Count; i++)
@@ -87,11 +87,12 @@ internal sealed class FreedomChoice
     private List<int> Independent(List<int> coordinates, IndependentLinkage part, CancellationToken cancellation)
     {
         var loop = new LoopMobility(part, _state, cancellation);
-        var newton = new NewtonSolver(part.Linkage);
+        var newton = new NewtonSolver(part.Linkage, cancellation);
         Pose[] poses = part.StateOf(_state).Poses;
         newton.Motion.Start(poses);
         var chosen = new List<int>();
-        int[] order = coordinates.Where(i => !IsInABall(i)).OrderBy(Rank).ThenBy(i => i).ToArray();
+        HashSet<int> looped = Looped(part);
+        int[] order = coordinates.Where(i => Holds(part, i) && !IsInABall(i, looped)).OrderBy(Rank).ThenBy(i => i).ToArray();
         double[][] rates = Array.ConvertAll(order, i => Rates(i, Array.BinarySearch(part.Joints, _mechanism.Coordinates[i].Joint), newton, poses, loop.Here.Basis));
         var before = new List<double[]>();
         foreach (double least in LeastShares)
@@ -127,11 +128,34 @@ internal sealed class FreedomChoice
         return motions.Select(motion => newton.Equations.Rate(joint, row, poses, motion)).ToArray();
     }
 
-    // The angles of a ball in a loop are what is left to a rod that spins idly.
-    private bool IsInABall(int coordinate)
+    // A joint that holds nothing belongs to no block: others tell what its coordinates do.
+    private bool Holds(IndependentLinkage part, int coordinate) => Array.BinarySearch(part.Joints, _mechanism.Coordinates[coordinate].Joint) >= 0;
+
+    // The angles of a ball in a loop are what is left to a rod that spins idly. A ball that couplings alone tie turns what hangs on it.
+    private bool IsInABall(int coordinate, HashSet<int> looped)
     {
         MechanismCoordinate own = _mechanism.Coordinates[coordinate];
-        return own.IsAngle && _turns[own.Joint] == 3 && _parts.Movers(BlockOf(coordinate)).Count > 1;
+        return own.IsAngle && _turns[own.Joint] == 3 && looped.Contains(own.Joint);
+    }
+
+    // The joints of a part's loops, by the mechanism's index.
+    private static HashSet<int> Looped(IndependentLinkage part)
+    {
+        var looped = new HashSet<int>();
+        KinematicTree tree = part.Linkage.Tree;
+        foreach (int closure in tree.Closures)
+        {
+            looped.Add(part.Joints[closure]);
+            foreach (int body in part.Linkage.Rows.Joints[closure].Bodies)
+            {
+                if (tree.TreeJoints[body] >= 0)
+                {
+                    looped.Add(part.Joints[tree.TreeJoints[body]]);
+                }
+            }
+        }
+
+        return looped;
     }
 
     // What drives comes first, then hinges and slides that hold to what the block hangs on.

@@ -42,7 +42,11 @@ internal sealed class IndependentLinkages
 
         foreach (int joint in whole.Tree.Closures)
         {
-            Add(_joints, BlockOf(whole.Rows.Joints[joint]), joint);
+            // One that holds nothing ties nothing: its two bodies may stand in different blocks.
+            if (MotionSubspace.Rows(whole.Joints[joint]) > 0)
+            {
+                Add(_joints, BlockOf(whole.Rows.Joints[joint]), joint);
+            }
         }
 
         for (int i = 0; i < whole.Couplings.Length; i++)

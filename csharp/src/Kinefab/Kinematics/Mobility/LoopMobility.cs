@@ -17,7 +17,7 @@ internal sealed class LoopMobility
     public LoopMobility(IndependentLinkage part, MechanismState closed, CancellationToken cancellation)
     {
         Part = part;
-        var newton = new NewtonSolver(part.Linkage);
+        var newton = new NewtonSolver(part.Linkage, cancellation);
         MechanismState state = part.StateOf(closed);
         newton.Motion.Start(state.Poses);
         newton.Assemble(state);

@@ -21,7 +21,7 @@ public static class MobilityAnalysis
     {
         if (mechanism is null)
             throw new ArgumentNullException(nameof(mechanism));
-        var newton = new NewtonSolver(mechanism.Linkage);
+        var newton = new NewtonSolver(mechanism.Linkage, cancellation);
         MechanismState state = mechanism.NewState();
         newton.Close(state);
         newton.Motion.Start(state.Poses);
@@ -30,6 +30,7 @@ public static class MobilityAnalysis
         var loops = new LoopMobility[parts.Count];
         int[] redundant = RowsThatTieNothing(mechanism);
         double gap = double.PositiveInfinity;
+        int inDoubt = 0;
         int general = Array.FindAll(blocks.BlockOf, block => block < 0).Length;
         for (int b = 0; b < loops.Length; b++)
         {
@@ -38,6 +39,7 @@ public static class MobilityAnalysis
             loops[b] = new LoopMobility(parts.Make(b, state.Poses), state, cancellation);
             loops[b].CountRedundant(redundant);
             gap = Math.Min(gap, loops[b].Here.Gap);
+            inDoubt += loops[b].Here.InDoubt;
             general += loops[b].AtGeneralPose;
         }
 
@@ -54,10 +56,10 @@ public static class MobilityAnalysis
             redundantRows += island.Redundant;
         }
 
-        List<BodyMobility> bodies = BodyTwists.Of(mechanism, newton, parts, loops);
+        List<BodyMobility> bodies = BodyTwists.Of(mechanism, newton, state.Poses, parts, loops);
         bodies.Sort((a, b) => a.GameObject.CompareTo(b.GameObject));
         int rows = 6 * mechanism.Tree.Order.Length - firstOrder + redundantRows;
-        return new MobilityReport(mobility, firstOrder, general, rows, redundantRows, gap, islands, bodies, Named(mechanism, redundant), idle);
+        return new MobilityReport(mobility, firstOrder, general, rows, redundantRows, gap, inDoubt, islands, bodies, Named(mechanism, redundant), idle);
     }
 
     // For each joint the rows that repeat others: at first those of joints between bodies that the tree holds already.

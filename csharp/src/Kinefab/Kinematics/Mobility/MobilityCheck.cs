@@ -14,7 +14,10 @@ namespace Kinefab.Kinematics;
 /// </summary>
 public static class MobilityCheck
 {
-    /// <summary>One error for each number that differs; nothing where the file holds no analysis.</summary>
+    /// <summary>
+    /// One error for each number that differs, a warning where the rank of the rows leaves it open which is right; nothing where
+    /// the file holds no analysis.
+    /// </summary>
     /// <param name="scene">Whose file states what the exporter counted.</param>
     /// <param name="counted">What was counted here.</param>
     /// <returns>The differences, with the place of each number in the file; empty where all agree.</returns>
@@ -77,7 +80,8 @@ public static class MobilityCheck
         {
             if (inFile != fromJoints)
             {
-                Add(pointer, DiagnosticCodes.MobilityDiffers, ("what", what), ("stated", Text(inFile)), ("counted", Text(fromJoints)));
+                string code = Math.Abs(inFile - fromJoints) <= counted.InDoubt ? DiagnosticCodes.MobilityUnsure : DiagnosticCodes.MobilityDiffers;
+                Add(pointer, code, ("what", what), ("stated", Text(inFile)), ("counted", Text(fromJoints)));
             }
         }
 

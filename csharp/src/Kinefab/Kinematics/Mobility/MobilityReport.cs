@@ -112,7 +112,7 @@ public sealed class IdleFreedom
 public sealed class MobilityReport
 {
     internal MobilityReport(
-        int mobility, int firstOrder, int atGeneralPose, int rows, int redundant, double gap, IReadOnlyList<IslandMobility> islands, IReadOnlyList<BodyMobility> bodies, IReadOnlyList<RedundantRows> joints,
+        int mobility, int firstOrder, int atGeneralPose, int rows, int redundant, double gap, int inDoubt, IReadOnlyList<IslandMobility> islands, IReadOnlyList<BodyMobility> bodies, IReadOnlyList<RedundantRows> joints,
         IReadOnlyList<IdleFreedom> idle)
     {
         Mobility = mobility;
@@ -121,6 +121,7 @@ public sealed class MobilityReport
         Rows = rows;
         Redundant = redundant;
         Gap = gap;
+        InDoubt = inDoubt;
         Islands = islands;
         Bodies = bodies;
         Joints = joints;
@@ -147,6 +148,9 @@ public sealed class MobilityReport
 
     /// <summary>Ratio of the least singular value that counts to the greatest that does not, over all loops; below 100 the counts are unsure.</summary>
     public double Gap { get; }
+
+    /// <summary>How many more freedoms, or fewer, rows would leave that hold a velocity by little, were they counted otherwise.</summary>
+    internal int InDoubt { get; }
 
     /// <summary>By their first GameObject.</summary>
     public IReadOnlyList<IslandMobility> Islands { get; }

@@ -7,33 +7,21 @@ namespace Kinefab.Kinematics;
 /// <summary>Spaces of twists, each by orthonormal vectors of six.</summary>
 internal static class TwistSpan
 {
+    /// <summary>An orthonormal basis of what twists span.</summary>
+    /// <param name="twists">Any number of them.</param>
+    /// <param name="least">Singular value, absolute, up to which one counts as none.</param>
+    public static List<double[]> Of(List<double[]> twists, double least)
+    {
+        SingularValues values = Decomposed(twists);
+        return Vectors(values, 0, values.Rank(least));
+    }
+
     /// <summary>What rows leave free.</summary>
     /// <param name="rows">Of unit length.</param>
     public static List<double[]> LeftBy(List<double[]> rows)
     {
-        var matrix = new double[rows.Count, 6];
-        for (int r = 0; r < rows.Count; r++)
-        {
-            for (int i = 0; i < 6; i++)
-            {
-                matrix[r, i] = rows[r][i];
-            }
-        }
-
-        var values = new SingularValues(matrix);
-        var left = new List<double[]>();
-        for (int k = VelocitySpace.Rank(values.Values, 1); k < 6; k++)
-        {
-            var twist = new double[6];
-            for (int i = 0; i < 6; i++)
-            {
-                twist[i] = values.Vector(i, k);
-            }
-
-            left.Add(twist);
-        }
-
-        return left;
+        SingularValues values = Decomposed(rows);
+        return Vectors(values, VelocitySpace.Rank(values.Values, 1), 6);
     }
 
     /// <summary>What of a space lies in another one too.</summary>
@@ -79,5 +67,36 @@ internal static class TwistSpan
         }
 
         return mixtures;
+    }
+
+    private static SingularValues Decomposed(List<double[]> rows)
+    {
+        var matrix = new double[rows.Count, 6];
+        for (int r = 0; r < rows.Count; r++)
+        {
+            for (int i = 0; i < 6; i++)
+            {
+                matrix[r, i] = rows[r][i];
+            }
+        }
+
+        return new SingularValues(matrix);
+    }
+
+    private static List<double[]> Vectors(SingularValues values, int first, int end)
+    {
+        var vectors = new List<double[]>();
+        for (int k = first; k < end; k++)
+        {
+            var twist = new double[6];
+            for (int i = 0; i < 6; i++)
+            {
+                twist[i] = values.Vector(i, k);
+            }
+
+            vectors.Add(twist);
+        }
+
+        return vectors;
     }
 }

@@ -19,7 +19,10 @@ internal sealed class FreedomBlocks
         var touched = new bool[linkage.BodyCount];
         foreach (int joint in linkage.Tree.Closures)
         {
-            Tie(linkage.Rows.Joints[joint]);
+            if (MotionSubspace.Rows(linkage.Joints[joint]) > 0)
+            {
+                Tie(linkage.Rows.Joints[joint]);
+            }
         }
 
         foreach (RowPath path in linkage.Rows.Couplings)

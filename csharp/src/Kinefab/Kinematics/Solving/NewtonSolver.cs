@@ -1,5 +1,6 @@
 using System;
 using System.Collections.Generic;
+using System.Threading;
 using Kinefab.Numerics;
 
 namespace Kinefab.Kinematics;
@@ -41,10 +42,11 @@ internal sealed class NewtonSolver
     private double _lastStep;
     private int _firstVanished;
 
-    public NewtonSolver(Linkage linkage)
+    public NewtonSolver(Linkage linkage, CancellationToken cancellation = default)
     {
         _linkage = linkage;
-        _normal = new NormalEquations(linkage.Tree, linkage.Rows.All);
+        Cancellation = cancellation;
+        _normal = new NormalEquations(linkage.Tree, linkage.Rows.All, cancellation);
         Motion = new TreeMotion(linkage, _normal.Firsts, _normal.Step.Length);
         Equations = new PositionEquations(linkage, Motion, _normal);
         Limits = new LimitSet(linkage);
@@ -63,6 +65,9 @@ internal sealed class NewtonSolver
 
     /// <summary>Sum of the steps of the last Close.</summary>
     public double[] Closing { get; }
+
+    /// <summary>Ends any call that iterates early, with an OperationCanceledException; the state then stands somewhere on the way.</summary>
+    public CancellationToken Cancellation { get; set; }
 
     /// <summary>Iterations since it was set to 0.</summary>
     public int Iterations { get; set; }
@@ -147,6 +152,7 @@ internal sealed class NewtonSolver
         _lastStep = 0;
         for (int n = 0; n < MaxTrackIterations; n++)
         {
+            Cancellation.ThrowIfCancellationRequested();
             Iterations++;
             Assemble(state);
             if (Equations.Worst <= Tolerance)
@@ -186,6 +192,7 @@ internal sealed class NewtonSolver
         Array.Clear(Closing, 0, Closing.Length);
         for (int n = 0; n < MaxCloseIterations && Equations.Worst > Tolerance; n++)
         {
+            Cancellation.ThrowIfCancellationRequested();
             Iterations++;
             double squares = Equations.Squares;
             Array.Copy(state.Poses, _before, _before.Length);

@@ -16,6 +16,9 @@ internal sealed class VelocitySpace
 
     private const double NoiseOverGap = 10;
 
+    // A gap between singular values that is wider than this share of the widest might have been the widest in other units.
+    private const double AlsoWide = 0.01;
+
     // Up to so many freedoms a block is decomposed whole.
     private const int Few = 64;
 
@@ -59,6 +62,9 @@ internal sealed class VelocitySpace
 
     /// <summary>What may be in a velocity without being in the motion, as a share: more than rounding where repeated rows do not quite repeat each other.</summary>
     public double Noise => NoiseOverGap / Gap;
+
+    /// <summary>How many more velocities, or fewer, another gap between the singular values would leave that is about as wide.</summary>
+    public int InDoubt { get; private set; }
 
     /// <summary>Orthonormal velocities, each of one block. A freedom that no loop holds has its own, which stands in none.</summary>
     public IReadOnlyList<double[]> Basis => _basis;
@@ -127,24 +133,41 @@ internal sealed class VelocitySpace
     /// <param name="size">
     /// What a row's largest is where none is lost; it stands before them, so that the border may lie below them all.
     /// </param>
-    public static int Rank(IReadOnlyList<double> values, double size)
+    public static int Rank(IReadOnlyList<double> values, double size) => Rank(values, size, out _);
+
+    private static int Rank(IReadOnlyList<double> values, double size, out int inDoubt)
     {
         double largest = values.Count == 0 ? size : Math.Max(values[0], size);
         int rank = values.Count;
         double widest = 0;
         for (int r = 0; r <= values.Count; r++)
         {
-            double above = (r > 0 ? values[r - 1] : size) / largest;
-            double below = (r < values.Count ? values[r] : 0) / largest;
-            double width = above / Math.Max(below, LeastShare);
-            if (above > LeastShare && below < LargestShare && width > widest)
+            double width = Width(r);
+            if (width > widest)
             {
                 widest = width;
                 rank = r;
             }
         }
 
+        inDoubt = 0;
+        for (int r = 0; r <= values.Count; r++)
+        {
+            if (Width(r) > AlsoWide * widest)
+            {
+                inDoubt = Math.Max(inDoubt, Math.Abs(r - rank));
+            }
+        }
+
         return rank;
+
+        // Of the gap before a value; 0 where the border may not lie.
+        double Width(int r)
+        {
+            double above = (r > 0 ? values[r - 1] : size) / largest;
+            double below = (r < values.Count ? values[r] : 0) / largest;
+            return above > LeastShare && below < LargestShare ? above / Math.Max(below, LeastShare) : 0;
+        }
     }
 
     private void AddMotions(NewtonSolver newton, IReadOnlyList<int> columns, List<int> rows, int freedoms, double size)
@@ -203,7 +226,8 @@ internal sealed class VelocitySpace
         {
             var values = new SingularValues(matrix);
             kept.AddRange(values.Values);
-            int rank = Rank(kept, size);
+            int rank = Rank(kept, size, out int inDoubt);
+            InDoubt += inDoubt;
             rest = rank < kept.Count ? kept[rank] : 0;
             motions = Mixtures(motions, values, rank - kept.Count + motions.Count);
             kept.RemoveRange(rank, kept.Count - rank);

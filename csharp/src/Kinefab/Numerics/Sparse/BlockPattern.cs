@@ -1,5 +1,6 @@
 using System;
 using System.Collections.Generic;
+using System.Threading;
 
 namespace Kinefab.Numerics;
 
@@ -68,8 +69,9 @@ internal sealed class BlockPattern
     /// <summary>The pattern of the given couplings and of the fill that its elimination makes.</summary>
     /// <param name="sizes">Rows of each node.</param>
     /// <param name="couplings">Pairs of nodes whose block is not zero; order and repeats do not matter.</param>
-    public BlockPattern(int[] sizes, IEnumerable<(int A, int B)> couplings)
-        : this(sizes, couplings, sizes.Length, new bool[sizes.Length])
+    /// <param name="cancellation">Ends the making early, with an OperationCanceledException.</param>
+    public BlockPattern(int[] sizes, IEnumerable<(int A, int B)> couplings, CancellationToken cancellation = default)
+        : this(sizes, couplings, sizes.Length, new bool[sizes.Length], cancellation)
     {
     }
 
@@ -78,7 +80,8 @@ internal sealed class BlockPattern
     /// <param name="couplings">Pairs of nodes whose block is not zero; order and repeats do not matter.</param>
     /// <param name="positive">How many nodes are positive; those behind them are negative.</param>
     /// <param name="waits">Nodes that wait for a neighbour's elimination, see <see cref="MinimumDegree"/>.</param>
-    public BlockPattern(int[] sizes, IEnumerable<(int A, int B)> couplings, int positive, bool[] waits)
+    /// <param name="cancellation">Ends the making early, with an OperationCanceledException.</param>
+    public BlockPattern(int[] sizes, IEnumerable<(int A, int B)> couplings, int positive, bool[] waits, CancellationToken cancellation = default)
     {
         int n = sizes.Length;
         _positive = positive;
@@ -90,6 +93,7 @@ internal sealed class BlockPattern
 
         foreach ((int a, int b) in couplings)
         {
+            cancellation.ThrowIfCancellationRequested();
             if (a != b)
             {
                 neighbours[a].Add(b);
@@ -97,7 +101,7 @@ internal sealed class BlockPattern
             }
         }
 
-        int[] order = MinimumDegree.Order(sizes, neighbours, waits, out int[][] later);
+        int[] order = MinimumDegree.Order(sizes, neighbours, waits, out int[][] later, cancellation);
         _turn = new int[n];
         for (int turn = 0; turn < n; turn++)
         {
@@ -114,6 +118,7 @@ internal sealed class BlockPattern
         _diagonal = new int[n];
         foreach (int node in order)
         {
+            cancellation.ThrowIfCancellationRequested();
             _diagonal[node] = Length;
             Length += sizes[node] * sizes[node];
             Array.Sort(later[node], (a, b) => _turn[a].CompareTo(_turn[b]));
@@ -127,6 +132,7 @@ internal sealed class BlockPattern
         Columns = new Column[n];
         for (int turn = 0; turn < n; turn++)
         {
+            cancellation.ThrowIfCancellationRequested();
             Columns[turn] = MakeColumn(order[turn], later[order[turn]], sizes);
         }
     }

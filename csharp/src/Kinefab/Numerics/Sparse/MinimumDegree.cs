@@ -1,5 +1,6 @@
 using System;
 using System.Collections.Generic;
+using System.Threading;
 
 namespace Kinefab.Numerics;
 
@@ -21,8 +22,9 @@ internal static class MinimumDegree
     /// <param name="neighbours">For each node its neighbours, symmetric, without itself; used up by the elimination.</param>
     /// <param name="waits">Nodes that wait for a neighbour to go.</param>
     /// <param name="later">For each node its neighbours at its turn, in order of index.</param>
+    /// <param name="cancellation">Ends the ordering early, with an OperationCanceledException.</param>
     /// <returns>The nodes in order of elimination.</returns>
-    public static int[] Order(int[] sizes, HashSet<int>[] neighbours, bool[] waits, out int[][] later)
+    public static int[] Order(int[] sizes, HashSet<int>[] neighbours, bool[] waits, out int[][] later, CancellationToken cancellation = default)
     {
         int n = sizes.Length;
         var degree = new int[n];
@@ -43,6 +45,7 @@ internal static class MinimumDegree
         later = new int[n][];
         for (int turn = 0; turn < n; turn++)
         {
+            cancellation.ThrowIfCancellationRequested();
             int node = queue.Min.Node;
             queue.Remove(queue.Min);
             order[turn] = node;

@@ -10,8 +10,8 @@ namespace KinefabUnity
     [AddComponentMenu(""), DisallowMultipleComponent]
     public sealed class KinefabBody : MonoBehaviour
     {
-        [SerializeField] private float maxAngularVelocity;
-        [SerializeField] private float maxJointVelocity;
+        // maxAngularVelocity of a Rigidbody, maxJointVelocity of a link.
+        [SerializeField] private float fastest;
         [SerializeField] private int solverIterations;
         [SerializeField] private int solverVelocityIterations;
 #if !UNITY_2022_2_OR_NEWER
@@ -33,7 +33,7 @@ namespace KinefabUnity
         {
             if (!body.isKinematic && IsLost(Unsaved(body), ofNew))
             {
-                body.gameObject.AddComponent<KinefabBody>().Take(body);
+                Leave(body, Unsaved(body), body.centerOfMass, body.inertiaTensor, body.inertiaTensorRotation);
             }
         }
 
@@ -42,7 +42,7 @@ namespace KinefabUnity
         {
             if (IsLost(Unsaved(link), ofNew))
             {
-                link.gameObject.AddComponent<KinefabBody>().Take(link);
+                Leave(link, Unsaved(link), link.centerOfMass, link.inertiaTensor, link.inertiaTensorRotation);
             }
         }
 
@@ -53,19 +53,12 @@ namespace KinefabUnity
         private static bool IsLost((float, int, int) unsaved, (float, int, int) ofNew) => true;
 #endif
 
-        private void Take(Rigidbody from)
+        private static void Leave(Component beside, (float, int, int) unsaved, Vector3 center, Vector3 inertia, Quaternion principal)
         {
-            (maxAngularVelocity, solverIterations, solverVelocityIterations) = Unsaved(from);
+            KinefabBody made = beside.gameObject.AddComponent<KinefabBody>();
+            (made.fastest, made.solverIterations, made.solverVelocityIterations) = unsaved;
 #if !UNITY_2022_2_OR_NEWER
-            (centerOfMass, inertiaTensor, inertiaTensorRotation) = (from.centerOfMass, from.inertiaTensor, from.inertiaTensorRotation);
-#endif
-        }
-
-        private void Take(ArticulationBody from)
-        {
-            (maxJointVelocity, solverIterations, solverVelocityIterations) = Unsaved(from);
-#if !UNITY_2022_2_OR_NEWER
-            (centerOfMass, inertiaTensor, inertiaTensorRotation) = (from.centerOfMass, from.inertiaTensor, from.inertiaTensorRotation);
+            (made.centerOfMass, made.inertiaTensor, made.inertiaTensorRotation) = (center, inertia, principal);
 #endif
         }
 
@@ -73,7 +66,7 @@ namespace KinefabUnity
         {
             if (TryGetComponent(out Rigidbody body))
             {
-                body.maxAngularVelocity = maxAngularVelocity;
+                body.maxAngularVelocity = fastest;
                 body.solverIterations = solverIterations;
                 body.solverVelocityIterations = solverVelocityIterations;
 #if !UNITY_2022_2_OR_NEWER
@@ -84,7 +77,7 @@ namespace KinefabUnity
             }
             else if (TryGetComponent(out ArticulationBody link))
             {
-                link.maxJointVelocity = maxJointVelocity;
+                link.maxJointVelocity = fastest;
                 link.solverIterations = solverIterations;
                 link.solverVelocityIterations = solverVelocityIterations;
 #if !UNITY_2022_2_OR_NEWER

@@ -236,7 +236,9 @@ class Solver:
                 step = -splu(normal).solve(jacobian.T @ residual[group.rows[0]])[None]
             else:
                 jacobian = self.jacobians(group, block_a, block_b)[take]
-                step = -minimum_norm(jacobian, residual[group.rows[take]])
+                # a steep coupling's row would hide what the others tell beside it
+                size = np.maximum(1.0, np.linalg.norm(jacobian, axis=2))
+                step = -minimum_norm(jacobian / size[..., None], residual[group.rows[take]] / size)
             step = step.reshape(len(step), -1, 6) * damp[group.members[take]][:, None, None]
             largest = np.abs(step).max(axis=(1, 2), initial=0.0)
             step *= np.minimum(1.0, LARGEST_STEP / np.maximum(largest, 1e-300))[:, None, None]

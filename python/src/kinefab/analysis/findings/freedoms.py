@@ -18,7 +18,10 @@ from ..freedom.stacks import alike
 from ..freedom.twists import twist_spaces
 from ..pairs.relations import Relation
 
-TOO_FEW = 1e-7
+LEAST = 1e-7
+"""Share of a block's velocities, of length 1 altogether, up to which a body has no part in them."""
+SAME_DIRECTION = 1e-4
+"""Sine of the angle up to which directions of different joints are one: no CAD program leaves axes further off."""
 OFF_DIRECTION = math.radians(0.5)
 """Angle from which a stated direction is another one: far above the rounding of a CAD program's list."""
 
@@ -71,21 +74,26 @@ def _joint_twists(joint: Candidate, center: Array, length: float) -> Array:
 
 
 def body_twists(assembly: Assembly, singular: Mapping[int, Candidate]) -> list[Array]:
-    """Scaled twists (v / length, w) of every body about its own point, orthonormal columns, shape (6, d).
+    """Scaled twists (v / the assembly's length, w) of every body about its own point, orthonormal columns, shape (6, d).
 
     Blocks move independently: a body's twists are those of its block's root, carried along, and its own.
     singular: see ``singular_joints``.
     """
-    relative, blocks = assembly.relative, assembly.blocks
+    relative, blocks, length = assembly.relative, assembly.blocks, assembly.equations.length
     own: list[Array] = [np.zeros((6, 0))] * relative.bodies
+    bodies: list[int] = []
+    moving: list[Array] = []
+    least: list[float] = []
     for freedom in assembly.freedoms:
-        basis, noise = freedom.basis, freedom.noise
-        if noise > TOO_FEW:  # a link of a parallelogram whose axes are not quite parallel does not turn
-            basis = np.where(np.abs(basis) > noise, basis, 0.0)
-        for body, rows in zip(freedom.bodies, basis.reshape(len(freedom.bodies), 6, -1)):
-            own[body] = rows
+        bodies += freedom.bodies.tolist()
+        # what may be in a velocity without being in the motion is none: a parallelogram's link with axes off by a little does not turn
+        none = max(LEAST, freedom.noise)
+        moving += list(np.where(np.abs(freedom.basis) > none, freedom.basis, 0.0).reshape(len(freedom.bodies), 6, -1))
+        least += [none] * len(freedom.bodies)
+    for body, twists in zip(bodies, spans(moving, least=least)):
+        own[body] = twists * np.repeat([relative.length[body] / length, 1.0], 3)[:, None]
     for body, joint in singular.items():
-        own[body] = _joint_twists(joint, relative.center[body], float(relative.length[body]))
+        own[body] = _joint_twists(joint, relative.center[body], length)
     found: list[Array] = [np.zeros((6, 0))] * relative.bodies
     for body in blocks.island_root[1:].tolist():  # the islands that float
         found[body] = np.eye(6)
@@ -105,29 +113,21 @@ def body_twists(assembly: Assembly, singular: Mapping[int, Candidate]) -> list[A
             if k:
                 arm = (relative.center[here] - relative.center[before])[:, None]
                 turning = np.swapaxes(carried[:, 3:], 1, 2)
-                v = carried[:, :3] * relative.length[before, None, None] + np.swapaxes(
-                    cross(turning, arm), 1, 2
-                )
-                carried = np.concatenate([v / relative.length[here, None, None], carried[:, 3:]], axis=1)
-            moving = _moving_spans(np.concatenate([carried, np.array([own[b] for b, _ in mine])], axis=2))
-            for (body, _), twists in zip(mine, moving):
+                v = carried[:, :3] + np.swapaxes(cross(turning, arm), 1, 2) / length
+                carried = np.linalg.qr(np.concatenate([v, carried[:, 3:]], axis=1))[0]
+            added = np.linalg.qr(np.array([own[b] for b, _ in mine]))[0]
+            both = np.concatenate([carried, added], axis=2)
+            for (body, _), twists in zip(mine, spans(list(both), SAME_DIRECTION)):
                 found[body] = twists
     return found
-
-
-def _moving_spans(stack: Array) -> list[Array]:
-    """Of columns, shape (n, m, k), by direction; columns without length (bodies at rest) are left out."""
-    size = np.linalg.norm(stack, axis=1)
-    moving = size > TOO_FEW
-    directions = stack / np.where(moving, size, 1.0)[:, None]
-    return spans([own[:, kept] for own, kept in zip(directions, moving)])
 
 
 def node_freedoms(assembly: Assembly, singular: Mapping[int, Candidate]) -> list[NodeFreedom]:
     """Of every part of the scene.  singular: see ``singular_joints``."""
     twists = body_twists(assembly, singular)
     relative = assembly.relative
-    spaces = twist_spaces(twists, relative.center, relative.length, relative.axes)
+    lengths = np.full(relative.bodies, assembly.equations.length)
+    spaces = twist_spaces(twists, relative.center, lengths, relative.axes)
     found: list[NodeFreedom] = []
     for i, node in enumerate(assembly.scene.nodes):
         if node.kind is NodeKind.PART and not node.suppressed:
@@ -173,7 +173,7 @@ def _angle_between(a: Array, b: Array) -> float:
     """
     if not len(a):
         return 0.0
-    u, v = (_moving_spans(rows.T[None])[0] for rows in (a, b))
+    u, v = spans([a.T, b.T])
     outside = max(float(np.linalg.norm(p - q @ (q.T @ p), 2)) for p, q in ((u, v), (v, u)))
     return math.asin(min(1.0, outside))
 

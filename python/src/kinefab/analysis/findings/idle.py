@@ -19,7 +19,7 @@ from ..assembly.assemble import Assembly
 from ..assembly.cut_pairs import CutPairs, cut_pairs
 from ..equations.solve import Solver
 from ..equations.system import System
-from ..freedom.first_order import block_freedoms
+from ..freedom.first_order import block_freedoms, moved_to_one_point
 from ..freedom.motion import finite_freedoms
 from ..freedom.stacks import alike
 from ..pairs.relations import Pairs, batched_null_spaces, pairs_of, relative_rows
@@ -28,6 +28,8 @@ ALONE = 1e-12
 """How far the cosine between two joints' twists, squared, may be from 1."""
 NEW = 1e-6
 """Length of a motion beside those already found from which it is another one."""
+SOME = 1e-2
+"""Share of a motion up to which a block has no part in it: where velocities are obstructed, motions are known to a step's curvature."""
 NEAR = 4e-6
 """Difference of two unit twists, along any direction, beyond which they are not shared up to ``ALONE``."""
 ASLANT = np.array([0.37, 0.43, 0.29, 0.53, 0.41, 0.39])
@@ -63,7 +65,7 @@ class _Search:
     """bodies: of each node, bodies that nothing lets move against each other.  twists: orthonormal, shape (6, n), by which
     the two nodes of each edge may move against each other, all about one point.  part: of each edge, of ``freedoms``.
     coupled: of each row over several pairs, by the nodes of each of its atoms, what a twist of the second adds to it, shape
-    (6,).  left: freedoms of each part that are not known to be idle.  known: motions found, by node, orthonormal; known_of:
+    (6,).  left: freedoms of each block of joints that are not known to be idle.  known: motions found, by node, orthonormal; known_of:
     those in which a node moves.
     """
 
@@ -73,7 +75,7 @@ class _Search:
     twists: list[Array]
     part: list[int]
     coupled: list[list[tuple[int, int, Array]]]
-    left: list[int]
+    left: dict[int, int]
     known: list[dict[int, Array]] = field(default_factory=list[dict[int, Array]])
     known_of: dict[int, list[int]] = field(default_factory=dict[int, list[int]])
 
@@ -100,7 +102,7 @@ class _Search:
         begin, end, after = cuts.lower(first), cuts.upper(last), cuts.lower(last)
         if not cuts.of_tree(last):
             end, after = after, end
-        if begin == end or cuts.upper(first) == after or not self.left[self.part[first]]:
+        if begin == end or cuts.upper(first) == after or not self.left[cuts.block[first]]:
             return  # one node, or all that hangs on one
         tolerance = self.tolerance(first)
         twists = _common(self.twists[first], self.twists[last], tolerance)
@@ -119,9 +121,9 @@ class _Search:
 
     def _alone(self, nodes: list[int], edge: int, twists: Array) -> Iterator[IdleFreedom]:
         """Of one set of nodes what is not known.  twists: what all the joints round them leave."""
-        part = self.part[edge]
+        block = self.cuts.block[edge]
         twists = self._left_by_couplings(set(nodes), twists)
-        if not twists.shape[1] or not self.left[part]:
+        if not twists.shape[1] or not self.left[block]:
             return
         bodies = sorted(body for node in nodes for body in self.bodies[node])
         # the joints may leave a twist to first order alone, as a slot across does
@@ -131,7 +133,7 @@ class _Search:
             if count < most and self._is_new(nodes, twist):
                 count += 1
         if count:
-            self.left[part] -= count
+            self.left[block] -= count
             yield IdleFreedom(tuple(sorted(n for body in bodies for n in self.assembly.nodes[body])), count)
 
     def _left_by_couplings(self, nodes: set[int], twists: Array) -> Array:
@@ -182,8 +184,32 @@ def _search_of(assembly: Assembly) -> _Search:
     cuts = cut_pairs(system.bodies, list(zip(pairs.first.tolist(), pairs.second.tolist())))
     part = assembly.solver.row_part[rows[numbers >= 0]].tolist()
     coupled = _coupled(system, pairs, point, length)
-    left = [finite.mobility if finite.mobility > 1 else 0 for finite in assembly.finite]
-    return _Search(assembly, bodies, cuts, twists, part, coupled, left)
+    return _Search(assembly, bodies, cuts, twists, part, coupled, _freedoms_of_blocks(assembly, bodies, cuts, part))
+
+
+def _freedoms_of_blocks(
+    assembly: Assembly, bodies: list[list[int]], cuts: CutPairs, part: list[int]
+) -> dict[int, int]:
+    """What each block of joints can do in itself, 0 where that is but one motion.  Couplings close no loop: a part of the
+    system may hold several blocks, and what hangs on them."""
+    edges_of: dict[int, list[int]] = {}
+    for edge, block in enumerate(cuts.block):
+        if block >= 0:
+            edges_of.setdefault(block, []).append(edge)
+    found: dict[int, int] = {}
+    for block, edges in edges_of.items():
+        freedom, finite = assembly.freedoms[part[edges[0]]], assembly.finite[part[edges[0]]]
+        nodes = sorted({node for edge in edges for node in cuts.edges[edge]})
+        count = finite.mobility
+        if count > 1 and len(nodes) <= len(freedom.bodies):  # else it is the part
+            place = {body: i for i, body in enumerate(freedom.bodies.tolist())}
+            turned = finite.tangent.reshape(len(place), 6, -1)
+            twists = moved_to_one_point(turned, freedom.bodies, assembly.relative)
+            at_rest = np.zeros((1, 6, count))
+            own = np.concatenate([twists, at_rest])[[place.get(bodies[node][0], -1) for node in nodes]]
+            count = int(np.linalg.matrix_rank((own - own[:1]).reshape(-1, count), tol=SOME))
+        found[block] = count if count > 1 else 0
+    return found
 
 
 def _coupled(system: System, pairs: Pairs, point: Array, length: float) -> list[list[tuple[int, int, Array]]]:

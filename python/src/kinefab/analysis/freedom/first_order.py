@@ -4,6 +4,7 @@ A small block's Jacobian goes to an SVD as it is, many blocks of one shape at a 
 first written in the freedoms of a spanning tree, J_cut T y = 0: the bodies' six-vectors T y follow the
 tree, only the rows outside it remain, and the matrix shrinks from 6 n columns to the tree's freedoms.  T has
 orthonormal columns and the loops take few of them, so that a ring costs the square of its bodies, not the cube.
+Where the loops are many, as in a grid of closed cells, ``few_velocities`` is asked first.
 """
 
 from __future__ import annotations
@@ -19,11 +20,14 @@ from ...partition import Partition
 from ...spatial import Array, IntArray, cross, skew
 from ..equations.solve import DENSE, Solver
 from ..equations.system import State, System
+from .inverse import few_velocities
 from .rank import factored, normalised, rank_of
 from .stacks import alike
 
 
 NOISE_OVER_GAP = 10.0
+MANY = 400
+"""Freedoms of a tree, and rows beside it, from which on the rows are left sparse."""
 
 
 @dataclass(slots=True, eq=False)
@@ -99,6 +103,11 @@ def large_null_space(
     factor: Array = np.divide(1.0, size, out=np.zeros_like(size), where=size > 0.0)
     jacobian = csr_matrix(diags(factor) @ jacobian)
     tree, tree_rows = _spanning_tree(system, bodies, atoms, jacobian, sizes * factor)
+    freedoms = sum(free.shape[1] for _, _, free in tree)
+    if min(rows - len(tree_rows), freedoms) > MANY:
+        found = few_velocities(jacobian)
+        if found is not None:
+            return found
     point = (system.center + state.shift)[bodies] / system.length[bodies, None]
     free = tree_motions(tree, point)
     loops = jacobian[np.setdiff1d(np.arange(rows), tree_rows)] @ free

@@ -29,6 +29,10 @@ DIRECTION = 0.05
 """Share of its length that a step must keep to count as a motion of its own."""
 WHOLE = 0.9
 """Share above which nothing is in doubt: a motion keeps all of itself, but for its curvature."""
+HIDDEN = 1e-3
+"""Share up to which nothing is left: an obstructed velocity keeps the root of the closing error over the step, some 1e-4."""
+ROUNDS = 3
+"""Times that what is left of directions is tried again."""
 HALF = 0.5
 """Share above which it counts where it stays in doubt: a motion keeps all of itself, what is obstructed less each time."""
 MOST_DIRECTIONS = 12
@@ -326,9 +330,18 @@ def _survivors(solver: Solver, part: int, freedom: BlockFreedom, state: State, s
 def _kept(
     solver: Solver, part: int, freedom: BlockFreedom, state: State, step: float
 ) -> tuple[Array, Array]:
-    """Orthonormal directions of what trial steps both ways leave of a basis, shape (6 n, m), and the share left of each."""
-    left = [_left_of(solver, part, freedom, state, direction, step) for direction in freedom.basis.T]
-    u, s, _ = np.linalg.svd(np.array(left).T, full_matrices=False)
+    """Orthonormal directions of what trial steps both ways leave of a basis, shape (6 n, m), and the share left of each.
+
+    An obstructed velocity takes a motion back along with it: what is left of directions that hold both is tried again by
+    itself.
+    """
+    basis = freedom.basis
+    for _ in range(ROUNDS):
+        left = [_left_of(solver, part, freedom, state, direction, step) for direction in basis.T]
+        u, s, _ = np.linalg.svd(np.array(left).T, full_matrices=False)
+        if not np.any((s > HIDDEN) & (s < WHOLE)):
+            break
+        basis = u[:, s > HIDDEN]
     return u, s
 
 

@@ -59,10 +59,13 @@ def factored(rows: Array) -> tuple[IntArray, Array, Array]:
     return *rank_of(s), vt
 
 
-def spans(columns: Sequence[Array], cut: float | None = None) -> list[Array]:
+def spans(
+    columns: Sequence[Array], cut: float | None = None, least: Sequence[float] | None = None
+) -> list[Array]:
     """Orthonormal bases, shape (m, rank), of the spans of columns, shape (m, n) each.
 
     cut: share of the largest singular value up to which one counts as a rounding; None puts it in the largest gap.
+    least: instead, of each, the singular value up to which one counts as none.
     """
     found = list(columns)
     for _, group in alike(own.shape for own in columns):
@@ -71,7 +74,10 @@ def spans(columns: Sequence[Array], cut: float | None = None) -> list[Array]:
         if stack.shape[2] > stack.shape[1]:  # of many columns in few dimensions, their triangular factor
             stack = np.swapaxes(np.linalg.qr(np.swapaxes(stack, 1, 2), mode="r"), 1, 2)
         u, s, _ = np.linalg.svd(stack, full_matrices=False)
-        rank = rank_of(s)[0] if cut is None and s.size else np.sum(s > (cut or 0.0) * s[:, :1], axis=1)
+        if least is not None:
+            rank = np.sum(s > np.array([least[i] for i in members])[:, None], axis=1)
+        else:
+            rank = rank_of(s)[0] if cut is None and s.size else np.sum(s > (cut or 0.0) * s[:, :1], axis=1)
         for i, basis, count in zip(members, u, rank):
             found[i] = basis[:, :count]
     return found

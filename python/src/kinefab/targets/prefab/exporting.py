@@ -13,8 +13,6 @@ from ...unity.scene import (
     AnimationClip,
     ArticulationBody,
     Component,
-    MeshFilter,
-    MeshRenderer,
     Rigidbody,
     UnityScene,
 )

@@ -43,7 +43,7 @@ from ..scene import ArticulationBody, Collider, GameObject, Material, MeshFilter
 from ..scene.joints.configurable_joint import APART
 from .extras import Way, extras_in
 from .pairs import pairs_apart, pairs_colliding
-from .restored import Restored, restored
+from .restored import restored
 from .scene_file import read_buffers, read_scene_file, unsound_as_finding
 from .shapes import shape_of
 from .unity_scene import unity_scene

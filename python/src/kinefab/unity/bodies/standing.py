@@ -63,8 +63,11 @@ def bases_of(scene: Scene, groups: RigidGroups) -> list[int | None]:
 
 
 def _named(scene: Scene, groups: RigidGroups) -> tuple[set[int], bool]:
-    """Nodes on the ground that joints tie to something that moves, and whether one ties such a thing to the world itself."""
+    """Nodes on the ground that joints tie to something that moves, or that it passes through, and whether one ties such a thing to the
+    world itself."""
     found, to_world = set[int](), False
+    for pair in scene.apart:
+        found |= {own for own, other in ((pair.a, pair.b), (pair.b, pair.a)) if groups.is_ground(own) and not groups.is_ground(other)}
     for joint in scene.joints:
         for own, other in ((joint.a, joint.b), (joint.b, joint.a)):
             if groups.is_ground(own) and not groups.is_ground(other):

@@ -66,7 +66,7 @@ internal sealed class LoopConsistencyTests
             BenchmarkMechanisms.Bricard().MultibodySystem, BenchmarkMechanisms.Governor().MultibodySystem,
             BenchmarkMechanisms.Lever().MultibodySystem,
         };
-        Assert.That(healthy.SelectMany(LoopConsistencyProbe.Find), Is.Empty);
+        Assert.That(healthy.SelectMany(mechanism => LoopConsistencyProbe.Find(mechanism)), Is.Empty);
     }
 
     [Test]

@@ -1,5 +1,6 @@
 using System;
 using System.Collections.Generic;
+using System.Threading;
 using Kinefab.Joints;
 using Kinefab.Numerics;
 
@@ -152,7 +153,7 @@ internal sealed class Island
     public bool IsHub(int body) => Hubs.Length > 0 && Array.BinarySearch(Hubs, body) >= 0;
 
     /// <summary>The blocks in their order, then the hubs in theirs.</summary>
-    public BlockPattern Pattern => _pattern ??= MakePattern();
+    public BlockPattern Pattern => _pattern ??= MakePattern(default);
 
     /// <summary>The couplings over bodies that are no hubs.</summary>
     public Link[] Links => _links ??= MakeLinks(_touching, Pattern);
@@ -298,7 +299,11 @@ internal sealed class Island
         return angular;
     }
 
-    private BlockPattern MakePattern()
+    /// <summary>Makes the pattern, which takes long for wide grids, so that it can be ended early.</summary>
+    /// <exception cref="OperationCanceledException">It was cancelled.</exception>
+    public void Order(CancellationToken cancellation) => _pattern ??= MakePattern(cancellation);
+
+    private BlockPattern MakePattern(CancellationToken cancellation)
     {
         var sizes = new int[Blocks.Length + Hubs.Length];
         _sizes.CopyTo(sizes, 0);
@@ -314,7 +319,7 @@ internal sealed class Island
             waits[n] = Array.TrueForAll(Blocks[n].Bodies, body => body >= MovingBodies || IsHub(body));
         }
 
-        return new BlockPattern(sizes, Couplings(), Blocks.Length, waits);
+        return new BlockPattern(sizes, Couplings(), Blocks.Length, waits, cancellation);
     }
 
     private IEnumerable<(int A, int B)> Couplings()

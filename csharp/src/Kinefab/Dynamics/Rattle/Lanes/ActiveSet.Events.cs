@@ -12,24 +12,38 @@ internal sealed partial class ActiveSet<V>
     private const double Least = 1e-10;
 
     /// <summary>The least C at the end of the drift of the limits, hard and soft, that were not reached at its start, m or rad; infinite without one.</summary>
-    public double NearestApart() => NearestApart(out _);
-
-    /// <summary>The same, and whose it is; -1 without one.</summary>
-    public double NearestApart(out int row)
+    public double NearestApart()
     {
         double least = double.PositiveInfinity;
-        row = -1;
         for (int i = 0; i < _rows.Length; i++)
         {
             ref ScalarRow scalar = ref _rows[i];
-            if (scalar.IsApart && scalar.HasEnd && scalar.End.Has(RowFlags.Limit) && scalar.End.GeometricError < least)
-            {
-                least = scalar.End.GeometricError;
-                row = i;
-            }
+            bool isOne = scalar.IsApart && scalar.HasEnd && scalar.End.Has(RowFlags.Limit);
+            least = isOne ? Math.Min(least, scalar.End.GeometricError) : least;
         }
 
         return least;
+    }
+
+    /// <summary>Of these limits the one that is passed at the end of the drift and was reached first, as far as can be told; -1 where none is.</summary>
+    /// <param name="h">Length of the drift, s.</param>
+    public int FirstReached(double h)
+    {
+        int first = -1;
+        double soonest = double.PositiveInfinity;
+        for (int i = 0; i < _rows.Length; i++)
+        {
+            ref ScalarRow scalar = ref _rows[i];
+            bool isOne = scalar.IsApart && scalar.HasEnd && scalar.End.Has(RowFlags.Limit) && scalar.End.GeometricError < 0;
+            double at = isOne ? scalar.ReachedAt(h) : double.PositiveInfinity;
+            if (isOne && (first < 0 || at < soonest))
+            {
+                soonest = at;
+                first = i;
+            }
+        }
+
+        return first;
     }
 
     /// <summary>Whether a limit is to be left in the drift, see <see cref="ScalarRow.IsLeft"/>.</summary>

@@ -160,7 +160,7 @@ internal sealed partial class ActiveSet<V>
         {
             ref ScalarRow scalar = ref _rows[i];
             scalar.PendingImpulse = 0;
-            if (scalar.Kind == RowKind.Limit && scalar.HasDrawn && scalar.State == RowState.AtBound && LeavesBound(scalar, 0, 0, tolerance))
+            if (scalar.Kind == RowKind.Limit && scalar.Allowed == 0 && scalar.HasDrawn && scalar.State == RowState.AtBound && LeavesBound(scalar, 0, 0, tolerance))
             {
                 scalar.IsLeft = true;
                 scalar.IsApart = true;

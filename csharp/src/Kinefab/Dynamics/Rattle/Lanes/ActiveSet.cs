@@ -69,10 +69,10 @@ internal sealed partial class ActiveSet<V>
             scalar.Theta = isImplicit ? 1 : 0.5;
             scalar.Kind = scalar.FindKind(SoftReach(scalar, h, tolerance));
             scalar.StartSpeed = scalar.IsActive ? StartSpeed(scalar) : 0;
-            bool isReached = scalar.StartError <= Reach * tolerance && !scalar.IsLeft && !IsThrownBack(scalar);
+            scalar.Allowed = scalar.Kind == RowKind.Limit && scalar.StartError < -ScalarRow.MostClosedByDrift ? scalar.StartError : 0;
+            bool isReached = scalar.Allowed < 0 || (scalar.StartError <= Reach * tolerance && !scalar.IsLeft && !IsThrownBack(scalar));
             scalar.IsApart = LocatesEvents && (!scalar.IsActive || (scalar.Built.Has(RowFlags.Limit) && !isReached));
             scalar.HasDrawn = false;
-            scalar.Allowed = scalar.Kind == RowKind.Limit && scalar.StartError < -ScalarRow.MostClosedByDrift ? scalar.StartError : 0;
             if (scalar.Kind == RowKind.None || scalar.IsApart)
             {
                 scalar.State = RowState.AtBound;

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 
-from ....diagnostics import Report
 from ....model import Scene, ignored_groups
 from ....unity.bodies.standing import bases_of
 from ...content import Content

@@ -213,7 +213,13 @@ internal sealed class LaneStep<V>
         bool mayLose = Batch.Shape.HasKinematic || (Batch.Axes != null && Batch.Axes.HasRow(lane));
         if (ledger.Allows(gain, moving, mayLose))
         {
-            LaneEnergy<V>.Take(Batch, lane, ledger.Enter(gain, moving, mayLose), Batch.Work.Kinetic[lane]);
+            // Where J v is not 0, no factor on all speeds may change them.
+            if (!Batch.Shape.HasKinematic && (Batch.Axes == null || !Batch.Axes.HasMotor(lane)))
+            {
+                double kinetic = Batch.Work.Kinetic[lane];
+                LaneEnergy<V>.Take(Batch, lane, ledger.Enter(gain, moving, kinetic, mayLose), kinetic);
+            }
+
             return;
         }
 
@@ -284,7 +290,7 @@ internal sealed class LaneStep<V>
         given = Batch.Axes == null ? given : given + Batch.Axes.Work(dt);
         given = Batch.Shape.HasKinematic ? given + LaneEnergy<V>.KinematicWorkBound(Batch) : given;
         kinetic.Store(work.Kinetic, 0);
-        (kinetic + LaneEnergy<V>.FirstWork(Batch, dt)).Store(work.Moving, 0);
+        Lane<V>.Max(kinetic, LaneEnergy<V>.FirstWork(Batch, dt)).Store(work.Moving, 0);
         (kinetic - Lane<V>.Load(work.StartKinetic, 0) - given).Store(work.Gain, 0);
     }
 

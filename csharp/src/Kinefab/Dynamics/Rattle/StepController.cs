@@ -53,7 +53,6 @@ internal sealed class StepController
     private StepTroubles _troubles;
     private bool _isAudited;
     private EnergyAudit _energy;
-    private EnergyLedger _ledger;
     private double _dt;
     private double _elapsed;
     private double _tolerance;
@@ -135,7 +134,6 @@ internal sealed class StepController
         _dampedInStep = 0;
         _part.IsEager = false;
         _isAudited = LaneEnergy<ScalarLane>.IsKnown(_batch, 0);
-        _ledger = cut.Energy;
         isMoved |= _batch.ActiveSet != null && _batch.ActiveSet.IsNewlyPassed();
         HasClosed = isMoved && _closure.TryClose(tolerance);
         _forbidden = isMoved && !_batch.Shape.IsInconsistent ? InitialVelocityProjection.Find(_batch, out _forbiddenSpeed) : -1;
@@ -202,10 +200,15 @@ internal sealed class StepController
 
     private void Enter(ref EnergyLedger ledger)
     {
-        if (_isAudited)
+        if (!_isAudited)
         {
-            var end = new EnergyAudit(_batch, _dt, _tolerance);
-            LaneEnergy<ScalarLane>.Take(_batch, 0, ledger.Enter(end.GainSince(_energy), end.Moving, MayLose), end.Kinetic);
+            return;
+        }
+
+        var end = new EnergyAudit(_batch, _dt, _tolerance);
+        if (!end.IsDriven)
+        {
+            LaneEnergy<ScalarLane>.Take(_batch, 0, ledger.Enter(end.GainSince(_energy), end.Moving, end.Kinetic, MayLose), end.Kinetic);
         }
     }
 
@@ -246,18 +249,10 @@ internal sealed class StepController
     // from the speeds.
     private bool IsEnergyKept(int halvings, double h)
     {
-        if (!_isAudited)
-        {
-            return true;
-        }
-
         // A gain is a part's own to mend, not that of the part after it.
         double share = EarlyShare + (1 - EarlyShare) * (_elapsed + h) / _dt;
-        bool isFinest = halvings >= MostEven;
-        bool mayLose = MayLose || isFinest;
-        var now = new EnergyAudit(_batch, _dt, _tolerance);
-        return now.IsKept(_energy, mayLose, share * (mayLose ? MostEnergyGain : MostEnergyChange))
-            && (isFinest || _ledger.Allows(now.GainSince(_energy), now.Moving, mayLose));
+        bool mayLose = MayLose || halvings >= MostEven;
+        return !_isAudited || new EnergyAudit(_batch, _dt, _tolerance).IsKept(_energy, mayLose, share * (mayLose ? MostEnergyGain : MostEnergyChange));
     }
 
     private bool TrySubsteps(double dt, int halvings, double tolerance)

@@ -10,15 +10,15 @@ internal sealed class EnergyLedgerTests
 {
     private const double Largest = 1000;
 
-    [TestCase(0.1, false, true)]
-    [TestCase(0.2, true, false)]
-    [TestCase(-0.2, false, false)]
-    [TestCase(-0.2, true, true)]
+    [TestCase(19, false, true)]
+    [TestCase(21, true, false)]
+    [TestCase(-21, false, false)]
+    [TestCase(-21, true, true)]
     [TestCase(double.NaN, true, false)]
     public void Allows_AGain_WithinAShareOfTheLargestEnergy(double gain, bool mayLose, bool isAllowed)
     {
         EnergyLedger ledger = default;
-        ledger.Enter(0, Largest, false);
+        ledger.Enter(0, Largest, Largest, false);
         Assert.That(ledger.Allows(gain, 1, mayLose), Is.EqualTo(isAllowed));
     }
 
@@ -28,12 +28,51 @@ internal sealed class EnergyLedgerTests
     {
         EnergyLedger ledger = default;
         double energy = 0;
-        for (int i = 0; i < 100; i++)
+        for (int i = 0; i < 1000; i++)
         {
             energy += change;
-            energy -= ledger.Enter(change, Largest, false);
-            Assert.That(Math.Abs(energy), Is.LessThanOrEqualTo(5e-4 * Largest + 1e-9));
+            energy -= ledger.Enter(change, Largest, Largest, false);
+            Assert.That(energy, Is.InRange(-1e-2 * Largest - 1e-9, 5e-4 * Largest + 1e-9));
         }
+    }
+
+    /// <summary>A symplectic method's energy swings by the square of the step: putting that right would cost it its order.</summary>
+    [Test]
+    public void Enter_WhatSwingsBelowAndComesBack_IsLeftAlone()
+    {
+        EnergyLedger ledger = default;
+        double energy = 0;
+        for (int i = 1; i <= 100; i++)
+        {
+            double next = 4e-3 * Largest * (Math.Cos(i / 4.0) - 1);
+            Assert.That(ledger.Enter(next - energy, Largest, Largest, false), Is.Zero);
+            energy = next;
+        }
+    }
+
+    /// <summary>Else each swing would leave a motion with less than the one before.</summary>
+    [Test]
+    public void Enter_WhatWasTakenAboveIsGivenBackBelow()
+    {
+        EnergyLedger ledger = default;
+        double energy = 0, swing = 0;
+        for (int i = 1; i <= 1000; i++)
+        {
+            double next = 3e-3 * Largest * Math.Sin(i / 5.0);
+            energy += next - swing;
+            energy -= ledger.Enter(next - swing, Largest, Largest, false);
+            swing = next;
+            Assert.That(energy, Is.InRange(-6e-3 * Largest, 5e-4 * Largest + 1e-9), $"step {i}");
+        }
+    }
+
+    [Test]
+    public void Enter_WhereLittleMoves_TakesTheRestLater()
+    {
+        EnergyLedger ledger = default;
+        double taken = ledger.Enter(2, Largest, 1, false);
+        Assert.That(taken, Is.EqualTo(0.5));
+        Assert.That(taken + ledger.Enter(0, Largest, Largest, false), Is.EqualTo(1.5));
     }
 
     /// <summary>What a limit took is neither given back nor room for a gain.</summary>
@@ -41,19 +80,19 @@ internal sealed class EnergyLedgerTests
     public void Enter_AfterABlow_LeavesNoRoom()
     {
         EnergyLedger ledger = default;
-        ledger.Enter(-500, Largest, true);
+        ledger.Enter(-500, Largest, Largest, true);
         double energy = 0, highest = 0;
         for (int i = 0; i < 100; i++)
         {
             energy += 0.1;
-            energy -= ledger.Enter(0.1, Largest, false);
+            energy -= ledger.Enter(0.1, Largest, Largest, false);
             highest = Math.Max(highest, energy);
         }
 
         Assert.That(highest, Is.LessThanOrEqualTo(1e-3 * Largest));
         for (int i = 0; i < 4; i++)
         {
-            Assert.That(ledger.Enter(-0.1, Largest, false), Is.GreaterThanOrEqualTo(0));
+            Assert.That(ledger.Enter(-0.1, Largest, Largest, false), Is.GreaterThanOrEqualTo(0));
         }
     }
 
@@ -72,7 +111,7 @@ internal sealed class EnergyLedgerTests
         {
             solver.Step(dt);
             largest = Math.Max(largest, MechanismMeasures.Kinetic(m));
-            Assert.That(MechanismMeasures.Energy(m) - start, Is.EqualTo(0).Within(1e-3 * largest), $"step {i}");
+            Assert.That((MechanismMeasures.Energy(m) - start) / largest, Is.InRange(-1e-2, 1e-3), $"step {i}");
         }
     }
 }

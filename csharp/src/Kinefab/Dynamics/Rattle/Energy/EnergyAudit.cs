@@ -45,7 +45,7 @@ internal readonly struct EnergyAudit
         _sprung = batch.ActiveSet?.SpringWork() ?? 0;
         _driven = (batch.ActiveSet?.MotorWorkBound(dt) ?? 0) + KinematicWorkBound(batch);
         Kinetic = NumberOf(LaneEnergy<ScalarLane>.Kinetic(batch), batch);
-        Moving = Kinetic + NumberOf(LaneEnergy<ScalarLane>.FirstWork(batch, dt), batch);
+        Moving = Math.Max(Kinetic, NumberOf(LaneEnergy<ScalarLane>.FirstWork(batch, dt), batch));
         double[] a = batch.Bodies;
         for (int body = 0; body < batch.Shape.MovingBodies; body++)
         {
@@ -63,8 +63,11 @@ internal readonly struct EnergyAudit
     /// <summary>J.</summary>
     public double Kinetic { get; }
 
-    /// <summary>The same with what forces give in the first steps from rest, J.</summary>
+    /// <summary>The same, and at least what forces give in the first steps from rest, J.</summary>
     public double Moving { get; }
+
+    /// <summary>Whether motors or kinematic bodies moved it since the start of the step: J v is not 0 then, and no factor on all speeds may change them.</summary>
+    public bool IsDriven => _driven > 0;
 
     /// <summary>Energy that came of nothing since, beyond rounding, J.</summary>
     public double GainSince(in EnergyAudit since)

@@ -12,9 +12,6 @@ internal static class LaneEnergy<V>
     private const double EarlySteps = 2;
     private const double LeastTime = 1e-3;
 
-    // Of what moves, the most that it is changed by.
-    private const double MostChange = 0.5;
-
     /// <summary>Kinetic energy where the rows were last built, J.</summary>
     public static Lane<V> Kinetic(LaneRecords<V> batch)
     {
@@ -94,7 +91,7 @@ internal static class LaneEnergy<V>
         }
 
         int w = Lane<V>.Width;
-        double factor = Math.Sqrt(1 - Math.Min(MostChange, Math.Max(-MostChange, energy / kinetic)));
+        double factor = Math.Sqrt(1 - Math.Min(EnergyLedger.MostOfKinetic, energy / kinetic));
         for (int body = 0; body < batch.Shape.MovingBodies; body++)
         {
             // L follows V.

@@ -278,16 +278,10 @@ internal sealed class AxisRows<V>
     }
 
     /// <summary>Whether a lane has a row in this step.</summary>
-    public bool HasRow(int lane)
-    {
-        bool isAny = false;
-        for (int k = 0; k < _blocks.Length; k++)
-        {
-            isAny |= _numbers[Count * k * Lane<V>.Width + lane] != None;
-        }
+    public bool HasRow(int lane) => HasKind(lane, Motor, Spring);
 
-        return isAny;
-    }
+    /// <summary>Whether a motor turns a lane's hinge in this step.</summary>
+    public bool HasMotor(int lane) => HasKind(lane, Motor, Motor);
 
     /// <summary>What the drives gave in the step: a spring its impulse along the drift, a motor its own at its speed, J.</summary>
     public Lane<V> Work(double h)
@@ -452,6 +446,18 @@ internal sealed class AxisRows<V>
         _numbers[o + Low * w] = isUpper ? 0 : double.NegativeInfinity;
         _numbers[o + High * w] = isUpper ? double.PositiveInfinity : 0;
         return true;
+    }
+
+    private bool HasKind(int lane, double first, double last)
+    {
+        bool isAny = false;
+        for (int k = 0; k < _blocks.Length; k++)
+        {
+            double kind = _numbers[Count * k * Lane<V>.Width + lane];
+            isAny |= kind >= first && kind <= last;
+        }
+
+        return isAny;
     }
 
     private Lane<V> Load(int k, int slot) => Lane<V>.Load(_numbers, (Count * k + slot) * Lane<V>.Width);

@@ -26,9 +26,6 @@ internal readonly struct EnergyAudit
     // What a pose holds that is off by so much: of a mechanism at rest that is all there is.
     private readonly double _floor;
 
-    // What springs that push against a limit, so that nothing moves by them, seem to give or take for such a pose.
-    private readonly double _pushed;
-
     /// <param name="batch">Built at the end pose.</param>
     /// <param name="dt">Step, s.</param>
     /// <param name="tolerance">Largest C, m or rad.</param>
@@ -37,7 +34,6 @@ internal readonly struct EnergyAudit
         double distance = Tolerances * tolerance;
         double speed = distance / dt;
         _floor = batch.ActiveSet?.LargestStoredEnergy(distance) ?? 0;
-        _pushed = batch.ActiveSet?.SpringWorkOver(distance) ?? 0;
         _work = 0;
         _terms = 0;
         _forced = 0;
@@ -73,7 +69,7 @@ internal readonly struct EnergyAudit
     public double GainSince(in EnergyAudit since)
     {
         double gain = Change(since) - (_driven - since._driven);
-        double rounding = RoundingSince(since) + _pushed;
+        double rounding = RoundingSince(since);
         return gain > rounding ? gain - rounding : gain < -rounding ? gain + rounding : 0;
     }
 

@@ -79,7 +79,7 @@ internal sealed partial class ActiveSet<V>
         return sum;
     }
 
-    /// <summary>Energy in all springs, each off by a distance, J.</summary>
+    /// <summary>What all springs hold more at most where each is off by a distance, J.</summary>
     /// <param name="distance">m or rad.</param>
     public double LargestStoredEnergy(double distance)
     {
@@ -87,21 +87,7 @@ internal sealed partial class ActiveSet<V>
         for (int i = 0; i < _rows.Length; i++)
         {
             ref ScalarRow scalar = ref _rows[i];
-            sum += scalar.IsActive && scalar.Built.Has(RowFlags.Spring) ? Stiffness(scalar) * distance * distance : 0;
-        }
-
-        return sum;
-    }
-
-    /// <summary>What springs with a potential give over a distance by the force that they hold where the rows were last built, J.</summary>
-    /// <param name="distance">m or rad.</param>
-    public double SpringWorkOver(double distance)
-    {
-        double sum = 0;
-        for (int i = 0; i < _rows.Length; i++)
-        {
-            ref ScalarRow scalar = ref _rows[i];
-            sum += scalar.IsActive && scalar.Built.Has(RowFlags.Spring) ? Stiffness(scalar) * Math.Abs(scalar.Built.GeometricError) * distance : 0;
+            sum += scalar.IsActive && scalar.Built.Has(RowFlags.Spring) ? Stiffness(scalar) * distance * (distance + Math.Abs(scalar.Built.GeometricError)) : 0;
         }
 
         return sum;

@@ -65,13 +65,8 @@ internal readonly struct EnergyAudit
     /// <summary>Whether motors or kinematic bodies moved it since the start of the step: J v is not 0 then, and no factor on all speeds may change them.</summary>
     public bool IsDriven => _driven > 0;
 
-    /// <summary>Energy that came of nothing since, beyond rounding, J.</summary>
-    public double GainSince(in EnergyAudit since)
-    {
-        double gain = Change(since) - (_driven - since._driven);
-        double rounding = RoundingSince(since);
-        return gain > rounding ? gain - rounding : gain < -rounding ? gain + rounding : 0;
-    }
+    /// <summary>Energy that came of nothing since, J.</summary>
+    public double GainSince(in EnergyAudit since) => Change(since) - (_driven - since._driven);
 
     private static double KinematicWorkBound(LaneBatch<ScalarLane> batch)
     {
@@ -94,7 +89,7 @@ internal readonly struct EnergyAudit
 
     /// <summary>Slows the bodies down until energy has not grown since by more than drives can have given.</summary>
     public void Dampen(LaneBatch<ScalarLane> batch, in EnergyAudit since) =>
-        LaneEnergy<ScalarLane>.Take(batch, 0, Math.Max(0, Change(since) - (_driven - since._driven)), Kinetic);
+        LaneEnergy<ScalarLane>.Take(batch, 0, Math.Max(0, GainSince(since)), Kinetic);
 
     /// <summary>
     /// Whether energy less work changed since by no more than a share of what moves, and rounding. Where it may be lost, as
@@ -103,7 +98,7 @@ internal readonly struct EnergyAudit
     public bool IsKept(in EnergyAudit since, bool mayLose, double share)
     {
         double change = Change(since);
-        double rounding = RoundingSince(since);
+        double rounding = Rounding * (_terms + since._terms) + _floor;
         return mayLose
             ? change <= share * (since.Kinetic + since._stored + Math.Abs(_sprung - since._sprung) + _forced) + _driven + rounding
             : Math.Abs(change) <= share * (Kinetic + _forced) + rounding;
@@ -111,6 +106,4 @@ internal readonly struct EnergyAudit
 
     private double Change(in EnergyAudit since) =>
         Kinetic + _stored - since.Kinetic - since._stored - (_work - since._work) - (_sprung - since._sprung);
-
-    private double RoundingSince(in EnergyAudit since) => Rounding * (_terms + since._terms) + _floor;
 }

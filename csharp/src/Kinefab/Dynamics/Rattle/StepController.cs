@@ -326,7 +326,7 @@ internal sealed class StepController
         }
 
         var end = new EnergyAudit(_batch, _dt, _tolerance);
-        if (!end.IsDriven)
+        if (end.IsClosed)
         {
             LaneEnergy<ScalarLane>.Take(_batch, 0, ledger.Enter(end.GainSince(_energy), end.Moving, end.Kinetic, MayLose), end.Kinetic);
         }

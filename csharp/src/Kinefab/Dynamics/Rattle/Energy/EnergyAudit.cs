@@ -62,8 +62,11 @@ internal readonly struct EnergyAudit
     /// <summary>The same, and at least what forces give in the first steps from rest, J.</summary>
     public double Moving { get; }
 
-    /// <summary>Whether motors or kinematic bodies moved it since the start of the step: J v is not 0 then, and no factor on all speeds may change them.</summary>
-    public bool IsDriven => _driven > 0;
+    /// <summary>
+    /// Whether the work since the start of the step is known but for rounding, and J v is 0, so that one factor may change all speeds: not where motors
+    /// or kinematic bodies moved the island, of which there is a bound, nor with springs without a potential, of which there is an estimate.
+    /// </summary>
+    public bool IsClosed => !(_driven > 0) && _sprung == 0;
 
     /// <summary>Energy that came of nothing since, J.</summary>
     public double GainSince(in EnergyAudit since) => Change(since) - (_driven - since._driven);

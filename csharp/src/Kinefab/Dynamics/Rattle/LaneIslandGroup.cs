@@ -42,7 +42,7 @@ internal sealed class LaneIslandGroup<V> : IslandGroup
     }
 
     /// <inheritdoc/>
-    public override void Step(double dt, double tolerance)
+    public override void Step(double dt, double tolerance, bool areReactionsAwaited)
     {
         foreach (AloneMemory memory in _memories)
         {
@@ -57,7 +57,7 @@ internal sealed class LaneIslandGroup<V> : IslandGroup
             LoadResting(free, i);
             free.Begin(dt, tolerance);
             free.Drift(dt, tolerance);
-            Rest(i, dt, tolerance);
+            Rest(i, dt, tolerance, areReactionsAwaited);
             for (int lane = 0; lane < free.Occupied; lane++)
             {
                 if (free.IsAlone(lane) && !free.IsTakenOver(lane))
@@ -76,7 +76,7 @@ internal sealed class LaneIslandGroup<V> : IslandGroup
                 }
             }
 
-            free.End(dt);
+            free.End(dt, areReactionsAwaited);
             for (int lane = 0; lane < free.Occupied; lane++)
             {
                 if (free.IsActive(lane))
@@ -85,6 +85,13 @@ internal sealed class LaneIslandGroup<V> : IslandGroup
                 }
             }
         }
+    }
+
+    /// <inheritdoc/>
+    public override void WriteReactions(JointReaction[] reactions)
+    {
+        Array.ForEach(_free, step => step.WriteReactions(reactions));
+        Array.ForEach(_resting, step => step.WriteReactions(reactions));
     }
 
     /// <inheritdoc/>
@@ -138,7 +145,7 @@ internal sealed class LaneIslandGroup<V> : IslandGroup
     }
 
     // The step of the lanes that rest on limits; those that cannot do it so are left alone.
-    private void Rest(int index, double dt, double tolerance)
+    private void Rest(int index, double dt, double tolerance, bool areReactionsAwaited)
     {
         if (Array.IndexOf(_rests, true) < 0)
         {
@@ -151,7 +158,7 @@ internal sealed class LaneIslandGroup<V> : IslandGroup
         resting.Drift(dt, tolerance);
         resting.Project(dt, tolerance);
         EnterEnergies(resting, index);
-        resting.End(dt);
+        resting.End(dt, areReactionsAwaited);
         bool areAll = resting.AreAllActive;
         if (areAll)
         {
@@ -217,7 +224,7 @@ internal sealed class LaneIslandGroup<V> : IslandGroup
         _spare.Work.Active[0] = 1;
         LaneTransfer<ScalarLane>.EndStep(_spare);
         LaneTransfer<ScalarLane>.Scatter(_spare, 1, _mechanism);
-        Reactions<ScalarLane>.Report(_spare, 1, _mechanism, dt);
+        Reactions<ScalarLane>.Report(_spare, 1, _mechanism.Reactions, dt, _spare.Work.TotalImpulses);
         free.TakeOver(lane, _spare, 0);
     }
 

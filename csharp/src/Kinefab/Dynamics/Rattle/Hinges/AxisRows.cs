@@ -319,10 +319,10 @@ internal sealed class AxisRows<V>
     }
 
     /// <summary>Torque on body 0 of the limit that a lane's hinge rests on, in the whole step, over its axis; 0 without one.</summary>
-    public double LimitImpulse(int block, int lane)
+    public double LimitImpulse(int block, int lane, double[] impulses)
     {
         int k = Array.IndexOf(_blocks, block);
-        return k >= 0 && _numbers[Count * k * Lane<V>.Width + lane] == Limit ? _batch.Work.TotalImpulses[RowOf(k) + lane] : 0;
+        return k >= 0 && _numbers[Count * k * Lane<V>.Width + lane] == Limit ? impulses[RowOf(k) + lane] : 0;
     }
 
     /// <summary>Gives a lane's impulses to the rows of the same hinges of an island that is to step alone.</summary>

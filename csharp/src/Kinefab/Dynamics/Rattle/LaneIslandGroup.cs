@@ -67,6 +67,7 @@ internal sealed class LaneIslandGroup<V> : IslandGroup
             }
 
             free.Project(dt, tolerance);
+            EnterEnergies(free, i);
             for (int lane = 0; lane < free.Occupied; lane++)
             {
                 if (free.HasLeftLate(lane))
@@ -156,6 +157,7 @@ internal sealed class LaneIslandGroup<V> : IslandGroup
         resting.Begin(dt, tolerance);
         resting.Drift(dt, tolerance);
         resting.Project(dt, tolerance);
+        EnterEnergies(resting, index);
         resting.End(dt, areReactionsAwaited);
         bool areAll = resting.AreAllActive;
         if (areAll)
@@ -173,6 +175,17 @@ internal sealed class LaneIslandGroup<V> : IslandGroup
                 }
 
                 Forget(index, lane, false);
+            }
+        }
+    }
+
+    private void EnterEnergies(LaneStep<V> step, int index)
+    {
+        for (int lane = 0; lane < step.Occupied; lane++)
+        {
+            if (step.IsActive(lane))
+            {
+                step.Enter(lane, ref History(index, lane).Energy);
             }
         }
     }

@@ -150,6 +150,7 @@ internal sealed class LaneStep<V>
             Rebuild();
         }
 
+        LaneEnergy<V>.Kinetic(Batch).Store(Batch.Work.StartKinetic, 0);
         Batch.Axes?.Clear();
         for (int lane = 0; lane < Occupied && Batch.Axes != null; lane++)
         {
@@ -203,6 +204,38 @@ internal sealed class LaneStep<V>
             _isAlone[lane] |= _hasLeftLate[lane];
             _isBuilt[lane] = !_isAlone[lane] || (_isTakenOver[lane] && !_hasLeftLate[lane]);
         }
+
+        RattleStep<V>.Accumulate(Batch);
+        MeasureEnergy(dt);
+    }
+
+    /// <summary>Enters the step of a lane, which has taken part in it to its end, into the account of its energy; where that does not allow it, the lane leaves.</summary>
+    public void Enter(int lane, ref EnergyLedger ledger)
+    {
+        if (!LaneEnergy<V>.IsKnown(Batch, lane))
+        {
+            return;
+        }
+
+        double gain = Batch.Work.Gain[lane];
+        double moving = Batch.Work.Moving[lane];
+        bool mayLose = Batch.Shape.HasKinematic || (Batch.Axes != null && Batch.Axes.HasRow(lane));
+        if (ledger.Allows(gain, moving, mayLose))
+        {
+            // Where J v is not 0, no factor on all speeds may change them.
+            if (!Batch.Shape.HasKinematic && (Batch.Axes == null || !Batch.Axes.HasMotor(lane)))
+            {
+                double kinetic = Batch.Work.Kinetic[lane];
+                LaneEnergy<V>.Take(Batch, lane, ledger.Enter(gain, moving, kinetic, mayLose), kinetic);
+            }
+
+            return;
+        }
+
+        _isAlone[lane] = true;
+        _isBuilt[lane] = false;
+        _hasLeftLate[lane] = true;
+        _hasFailed[lane] = true;
     }
 
     /// <summary>What the lanes that take part have come to, back to the world.</summary>
@@ -223,7 +256,6 @@ internal sealed class LaneStep<V>
 
         RattleStep<V>.Accept(Batch);
         GeometricStiffness<V>.Estimate(Batch, Batch.VelocityImpulses, dt / 2);
-        RattleStep<V>.Accumulate(Batch);
         LaneTransfer<V>.EndStep(Batch);
         LaneTransfer<V>.Scatter(Batch, Occupied, _mechanism);
         if (areReactionsAwaited)
@@ -280,6 +312,18 @@ internal sealed class LaneStep<V>
         Batch.Exchange(tape);
         Batch.Axes?.Exchange(tape);
         tape.Array(_isBuilt);
+    }
+
+    private void MeasureEnergy(double dt)
+    {
+        Workspace<V> work = Batch.Work;
+        Lane<V> kinetic = LaneEnergy<V>.Kinetic(Batch);
+        Lane<V> given = LaneEnergy<V>.Work(Batch);
+        given = Batch.Axes == null ? given : given + Batch.Axes.Work(dt);
+        given = Batch.Shape.HasKinematic ? given + LaneEnergy<V>.KinematicWorkBound(Batch) : given;
+        kinetic.Store(work.Kinetic, 0);
+        Lane<V>.Max(kinetic, LaneEnergy<V>.FirstWork(Batch, dt)).Store(work.Moving, 0);
+        (kinetic - Lane<V>.Load(work.StartKinetic, 0) - given).Store(work.Gain, 0);
     }
 
     private void Rebuild()

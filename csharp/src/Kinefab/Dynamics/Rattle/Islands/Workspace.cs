@@ -1,4 +1,5 @@
 using System;
+using System.Threading;
 using Kinefab.Joints;
 using Kinefab.Numerics;
 
@@ -42,10 +43,17 @@ internal sealed class Workspace<V>
         LastMaxError = new double[w];
         FirstMaxError = new double[w];
         Fastest = new double[w];
+        StartKinetic = new double[w];
+        Kinetic = new double[w];
+        Moving = new double[w];
+        Gain = new double[w];
         Leftover = new double[w];
         Reaction = new double[6 * w];
         Rows = shape.HasAssembledRows ? new ConstraintRow[JointModel.MaxRows] : Array.Empty<ConstraintRow>();
     }
+
+    /// <summary>Ends the step early, as <see cref="MultibodySystem.Cancellation"/>.</summary>
+    public CancellationToken Cancellation { get; set; }
 
     /// <summary>Angular J times the inverse inertia, as <see cref="LaneRecords{V}.Angular"/>.</summary>
     public double[] Response { get; }
@@ -107,6 +115,16 @@ internal sealed class Workspace<V>
 
     /// <summary>Largest angular speed of each lane's moving bodies at the start of the step, rad/s.</summary>
     public double[] Fastest { get; }
+
+    /// <summary>Kinetic energy of each lane at the start of the step and at its end, J.</summary>
+    public double[] StartKinetic { get; }
+
+    public double[] Kinetic { get; }
+
+    /// <summary>The energy that moves at its end, and what came of nothing in it, as <see cref="EnergyLedger"/> asks for, J.</summary>
+    public double[] Moving { get; }
+
+    public double[] Gain { get; }
 
     /// <summary>What the projection leaves, see <see cref="VelocityProjection{V}"/>.</summary>
     public double[] Leftover { get; }

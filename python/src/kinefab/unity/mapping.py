@@ -280,8 +280,9 @@ class _Builder:
             connected = self.ground if mapped.connected is None else self.object_of[mapped.connected]
             component = replace(mapped.component, connectedBody=connected)
             if isinstance(component, AnchoredJoint):
-                component = replace(component, **stated_of(joint))
-                own = [at.name for i, at in mapped.coordinates.items() if unbounded(joint.freedoms[i]) and joint.slerp is None]
+                names = {i: at.name for i, at in mapped.coordinates.items()}
+                component = replace(component, **stated_of(joint, names))
+                own = [name for i, name in names.items() if unbounded(joint.freedoms[i]) and joint.slerp is None]
                 component = replace(component, extras={**component.extras, OWN: own}) if own else component
             components = self.components[self.object_of[mapped.owner]]
             components.append(component)

@@ -67,7 +67,8 @@ def _component(
         return None
     component = replace(mapped.component, enabled=False)
     if isinstance(component, AnchoredJoint):
-        component = replace(component, **stated_of(joint))
+        names = {i: at.name for i, at in mapped.coordinates.items()}
+        component = replace(component, **stated_of(joint, names))
     if not lost:
         report.kept(feature, joint.where, "JOINT_DISABLED", joint=joint.id)
     return mapped.owner, mapped.connected, component

@@ -47,6 +47,7 @@ public sealed class FieldEffectTests
         ["speed"] = "as above",
         ["friction"] = "as above",
         ["armature"] = "as above",
+        ["ConfigurableJoint.stated"] = "as above, of each coordinate",
         ["because"] = "information",
         ["closure"] = "information",
         ["exact"] = "information",

@@ -43,6 +43,8 @@ public sealed class FieldEffectTests
         ["enabled"] = "a joint that is switched off is none: DisabledJointTests",
         ["id"] = "information",
         ["name"] = "information",
+        ["part"] = "information",
+        ["connectedPart"] = "information",
         ["effort"] = "information, told by JOINT_STATED_UNFOLLOWED",
         ["speed"] = "as above",
         ["friction"] = "as above",

@@ -55,6 +55,7 @@ class UnityJoint:
 
     component: without ``connectedBody``.
     coordinates: for each freedom (TX..RZ) that is not locked, how to read it.
+    parts: the nodes that the source joins, the own one first.
     """
 
     source: Joint
@@ -62,6 +63,7 @@ class UnityJoint:
     connected: int | None
     component: MappedJoint
     coordinates: dict[int, UnityCoordinate]
+    parts: tuple[int | None, int | None]
 
 
 def map_joint(
@@ -124,7 +126,8 @@ def map_joint(
         _report_freed(joint, found, shape, component, scene, scene.nodes[owner].id, report)
     else:
         report.kept(feature, joint.where)
-    return UnityJoint(joint, owner, connected, component, _readings(shape, coordinates, placement))
+    parts = (joint.a, joint.b) if placement.on_a else (joint.b, joint.a)
+    return UnityJoint(joint, owner, connected, component, _readings(shape, coordinates, placement), parts)
 
 
 def _why_none(

@@ -92,6 +92,9 @@ APART_ONCE = {
     72343: (4, 0),  # a steep coupling hid that a turn is obstructed
     60153: (2, 0),  # a block's only motion, in a part that a coupling makes larger
     60536: (7, 0),  # a screw that a rod holds by the square of its lead alone
+    92355: (2, 1),  # a rack of a metre a degree hid that a loop has two motions
+    94161: (3, 1),
+    94743: (5, 5),  # a velocity that the fourth power of the way obstructs
     90882: (5, 5),  # obstructed velocities mixed with motions, which do not come back onto the joints in one go
 }
 """Mechanisms, by seed, that were once counted differently: mobility and idle freedoms."""
@@ -111,6 +114,8 @@ BODIES_APART_ONCE = {
     40144: ("high2", 1, 3),  # 8e-5 of its legs' speeds
     60637: ("top", 0, 1),
     50776: ("part1", 1, 1),  # a screw on a screw: 1e-6 of the others' speeds
+    92734: ("low2", 0, 1),  # one motion of four has 2e-7 of it
+    94911: ("top", 1, 2),
 }
 """Bodies whose freedoms were once counted differently, by seed: translations and rotations.  Counted by rank with 60 digits."""
 

@@ -333,6 +333,9 @@ public static class DiagnosticCodes
     /// <summary>No pose of the mechanism satisfies the limits of {joints} and its other joints at once, from {time} s; each is held where it stands.</summary>
     public const string LimitsContradict = "LIMITS_CONTRADICT";
 
+    /// <summary>The drive of a joint has no limit of force, and the rest of the mechanism does not let it move as it is asked, from {time} s: {joints}. It stalls there.</summary>
+    public const string DriveStalled = "DRIVE_STALLED";
+
     /// <summary>The exact solver found no motion of the mechanism of {object} in a part of the step from {time} s: {reason}. The mechanism stands still in that part, and its speeds fall.</summary>
     public const string StepUnsolved = "STEP_UNSOLVED";
 

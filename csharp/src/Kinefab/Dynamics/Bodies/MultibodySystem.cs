@@ -43,6 +43,9 @@ internal sealed class MultibodySystem
     /// <summary>Limits that stood passed in the last step, since no pose satisfies them and the rest of the joints.</summary>
     public readonly List<HeldLimit> HeldLimits = new();
 
+    /// <summary>Drives without limit of force that the last step could not move as asked, and the limits that they push against.</summary>
+    public readonly List<StalledJoint> StalledJoints = new();
+
     public MultibodySystem(Bodies bodies, JointModel[] joints, CoordinateCoupling[] couplings)
     {
         Bodies = bodies;
@@ -179,6 +182,18 @@ internal struct HeldLimit
     /// <summary>By how much, m or rad.</summary>
     public double Error;
     public bool IsAngular;
+}
+
+/// <summary>A joint of an island in which drives without limit of force stall.</summary>
+internal struct StalledJoint
+{
+    /// <summary>One of the island's bodies, the same for all of its joints.</summary>
+    public int Body;
+
+    public JointModel Joint;
+
+    /// <summary>Whether its drive stalls; else a drive pushes against its limit.</summary>
+    public bool IsDrive;
 }
 
 /// <summary>Moves a mechanism forward in time. Allocates nothing after its first step.</summary>

@@ -12,6 +12,7 @@ internal abstract class IslandGroup
     private readonly List<ForbiddenSpeed> _forbidden = new();
     private readonly List<UnsolvedStep> _unsolved = new();
     private readonly List<HeldLimit> _held = new();
+    private readonly List<StalledJoint> _stalled = new();
     private int _stops;
     private double _substepWork;
 
@@ -32,6 +33,7 @@ internal abstract class IslandGroup
         Move(_forbidden, mechanism.ForbiddenSpeeds);
         Move(_unsolved, mechanism.Unsolved);
         Move(_held, mechanism.HeldLimits);
+        Move(_stalled, mechanism.StalledJoints);
     }
 
     /// <summary>Takes down what a step controller's last step has to say of an island.</summary>
@@ -58,6 +60,7 @@ internal abstract class IslandGroup
         }
 
         controller.AddHeldLimits(island, _held);
+        controller.AddStalled(island, _stalled);
     }
 
     private static void Move<T>(List<T> from, List<T> to)

@@ -23,6 +23,7 @@ internal sealed class LaneIslandGroup<V> : IslandGroup
 
     // Of islands with scalar rows, which they have only when they step alone; else empty.
     private readonly AloneMemory[] _memories;
+    private readonly Standstill[] _stills;
     private readonly LaneBatch<ScalarLane> _spare;
     private readonly StepController _controller;
 
@@ -34,6 +35,7 @@ internal sealed class LaneIslandGroup<V> : IslandGroup
         _free = Steps(shape.InLanes, island => island.InLanes);
         _resting = shape.Resting is null ? Array.Empty<LaneStep<V>>() : Steps(shape.Resting, island => island.Resting!);
         _histories = new SubstepHistory[_islands.Length];
+        _stills = Array.ConvertAll(_islands, _ => new Standstill());
         _memories = shape.Alone.ScalarCount == 0 ? Array.Empty<AloneMemory>() : Array.ConvertAll(_islands, island => new AloneMemory(island.Alone, mechanism.Bodies));
         _spare = new LaneBatch<ScalarLane>(shape.Alone, new Workspace<ScalarLane>(shape.Alone));
         _controller = new StepController(_spare);
@@ -194,7 +196,7 @@ internal sealed class LaneIslandGroup<V> : IslandGroup
         RattleStep<ScalarLane>.Rebuild(_spare);
         RattleStep<ScalarLane>.ReloadState(_spare);
         int stops = _controller.DampedSteps;
-        _controller.Advance(dt, tolerance, ref History(index, lane), free.HasFailed(lane), isMoved);
+        _controller.Advance(dt, tolerance, ref History(index, lane), _stills[index * Lane<V>.Width + lane], free.HasFailed(lane), isMoved);
         Note(_controller, island, stops);
         memory?.Save(_spare, _controller.DampedSteps == stops);
         axes?.TakeOver(lane, _spare);

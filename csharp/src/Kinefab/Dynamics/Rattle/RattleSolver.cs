@@ -74,6 +74,7 @@ internal sealed class RattleSolver : ISolver, IStepParts
         _mechanism.Closed.Clear();
         _mechanism.ForbiddenSpeeds.Clear();
         _mechanism.HeldLimits.Clear();
+        _mechanism.StalledJoints.Clear();
         _dt = dt;
         _tolerance = Math.Min(MostGap, Math.Max(LeastGap, GapAcceleration * dt * dt));
         StepThreads.ForEach(this, _groups.Count, _mechanism.Threads);

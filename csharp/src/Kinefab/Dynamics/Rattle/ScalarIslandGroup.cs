@@ -1,3 +1,4 @@
+using System;
 using System.Collections.Generic;
 using Kinefab.Numerics;
 
@@ -12,6 +13,7 @@ internal sealed class ScalarIslandGroup : IslandGroup
     private readonly StepController[] _controllers;
     private readonly StiffSpringCorrection?[] _corrections;
     private readonly SubstepHistory[] _histories;
+    private readonly Standstill[] _stills;
 
     public ScalarIslandGroup(MultibodySystem mechanism, List<Island> islands)
     {
@@ -21,6 +23,7 @@ internal sealed class ScalarIslandGroup : IslandGroup
         _controllers = new StepController[_islands.Length];
         _corrections = new StiffSpringCorrection?[_islands.Length];
         _histories = new SubstepHistory[_islands.Length];
+        _stills = Array.ConvertAll(_islands, _ => new Standstill());
         for (int i = 0; i < _islands.Length; i++)
         {
             _batches[i] = new LaneBatch<ScalarLane>(_islands[i], new Workspace<ScalarLane>(_islands[i]));
@@ -48,7 +51,7 @@ internal sealed class ScalarIslandGroup : IslandGroup
 
             RattleStep<ScalarLane>.ReloadState(batch);
             int stops = _controllers[i].DampedSteps;
-            _controllers[i].Advance(dt, tolerance, ref _histories[i], false, isMoved);
+            _controllers[i].Advance(dt, tolerance, ref _histories[i], _stills[i], false, isMoved);
             Note(_controllers[i], _islands[i], stops);
             if (_controllers[i].DampedSteps == stops)
             {

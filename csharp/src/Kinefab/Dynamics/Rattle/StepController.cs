@@ -38,6 +38,9 @@ internal sealed class StepController
     // Of what energy may grow by in a step, the share that is a part's from the start on; the rest comes with the time.
     private const double EarlyShare = 0.25;
 
+    // What a part that stands still leaves of the speeds.
+    private const double KeptSpeed = 0.9;
+
     private readonly LaneBatch<ScalarLane> _batch;
     private readonly ConjugateGradient _exact;
     private readonly Substep _part;
@@ -46,6 +49,7 @@ internal sealed class StepController
     private readonly Snapshot?[] _substepStarts = new Snapshot?[LastDepth + 1];
     private int _failures;
     private int _dampedInStep;
+    private bool _hasMoved;
     private int _worst;
     private double _worstError;
     private int _forbidden = -1;
@@ -93,6 +97,48 @@ internal sealed class StepController
         }
     }
 
+    /// <summary>
+    /// The joints whose endless drives stall, and those whose limits they push against, are added to a list; not a drive that rests at its own joint's
+    /// limit.
+    /// </summary>
+    /// <param name="island">The island that was stepped; the batch may be of another of its shape.</param>
+    /// <param name="stalled">Takes them.</param>
+    public void AddStalled(Island island, List<StalledJoint> stalled)
+    {
+        double weight = _batch.ActiveSet?.StalledWeight() ?? 0;
+        if (weight > 0)
+        {
+            AddStalled(island, stalled, weight);
+        }
+    }
+
+    private void AddStalled(Island island, List<StalledJoint> stalled, double weight)
+    {
+        ActiveSet<ScalarLane> scalars = _batch.ActiveSet!;
+        int first = stalled.Count;
+        for (int i = 0; i < scalars.Count; i++)
+        {
+            ref readonly ScalarRow row = ref scalars.Row(i);
+            if (!row.IsStalled && !scalars.IsPushed(row, weight))
+            {
+                continue;
+            }
+
+            // A joint's drives stand before its limits.
+            JointModel joint = island.Blocks[row.Block].Joint!;
+            bool isOwnLimit = !row.IsStalled && stalled.RemoveAll(one => one.IsDrive && one.Joint == joint) > 0;
+            if (!isOwnLimit)
+            {
+                stalled.Add(new StalledJoint { Body = island.Bodies[0], Joint = joint, IsDrive = row.IsStalled });
+            }
+        }
+
+        if (stalled.FindIndex(first, one => one.IsDrive) < 0)
+        {
+            stalled.RemoveRange(first, stalled.Count - first);
+        }
+    }
+
     /// <summary>Whether the last step began by closing its start pose.</summary>
     public bool HasClosed { get; private set; }
 
@@ -120,10 +166,17 @@ internal sealed class StepController
     /// <param name="dt">Step, s.</param>
     /// <param name="tolerance">Largest C, metres or radians.</param>
     /// <param name="cut">The island's cut; takes note of the step.</param>
+    /// <param name="still">The island's; takes note of the step.</param>
     /// <param name="hasFailed">Whether the plain step was tried already.</param>
     /// <param name="isMoved">Whether the start pose is not the one that the last step left.</param>
-    public void Advance(double dt, double tolerance, ref SubstepHistory cut, bool hasFailed, bool isMoved)
+    public void Advance(double dt, double tolerance, ref SubstepHistory cut, Standstill still, bool hasFailed, bool isMoved)
     {
+        if (still.IsKnown(_batch, dt, cut.Halvings))
+        {
+            StandStill(still.Verdict);
+            return;
+        }
+
         Array.Clear(_batch.Work.TotalImpulses, 0, _batch.Work.TotalImpulses.Length);
         _batch.ActiveSet?.ClearWork();
         _part.Begin(dt);
@@ -132,7 +185,8 @@ internal sealed class StepController
         _failures = 0;
         _elapsed = 0;
         _dampedInStep = 0;
-        _part.IsEager = false;
+        _hasMoved = false;
+        _part.IsEager = hasFailed && _batch.ActiveSet != null;
         _isAudited = EnergyAudit.IsKnown(_batch);
         isMoved |= _batch.ActiveSet != null && _batch.ActiveSet.IsNewlyPassed();
         HasClosed = isMoved && _closure.TryClose(tolerance);
@@ -143,8 +197,9 @@ internal sealed class StepController
             CloseInitialState(isMoved);
         }
 
+        int stops = DampedSteps;
         double demand = StepLimit.Of(_batch, dt);
-        int halvings = Math.Max(cut.Halvings, hasFailed ? 1 : 0);
+        int halvings = Math.Max(cut.Halvings, hasFailed && !_part.IsEager ? 1 : 0);
         while (halvings < MaxHalvings && demand > 1 << halvings)
         {
             halvings++;
@@ -153,9 +208,11 @@ internal sealed class StepController
         _start.Save(_batch);
         Audit(dt);
         _dt = dt;
+        bool hasLooked = false;
         while (!TrySubsteps(dt, halvings, tolerance) || !IsEnergyKept(halvings, dt))
         {
             Return(_start, dt);
+            _hasMoved = false;
             bool wasEager = _part.IsEager;
             _part.IsEager = true;
             if (!hasSettled)
@@ -166,6 +223,15 @@ internal sealed class StepController
                 Audit(dt);
             }
 
+            if (!hasLooked && IsTorn(dt, isMoved))
+            {
+                Return(_start, dt);
+                _dampedInStep = 1;
+                DampedSteps++;
+                break;
+            }
+
+            hasLooked = true;
             if (halvings >= MostEven)
             {
                 SubstepUntilSolved(dt, halvings, tolerance);
@@ -177,6 +243,28 @@ internal sealed class StepController
 
         cut.Record(halvings, demand);
         _part.SetLength(dt);
+        if (_dampedInStep == 0 || _hasMoved)
+        {
+            still.Forget();
+            return;
+        }
+
+        Damp(0);
+        still.Remember(new StepVerdict { Stops = DampedSteps - stops, Worst = _worst, Error = _worstError, Troubles = _troubles });
+    }
+
+    // The step as it was made before from the same state.
+    private void StandStill(in StepVerdict verdict)
+    {
+        Array.Clear(_batch.Work.TotalImpulses, 0, _batch.Work.TotalImpulses.Length);
+        _part.Tries = 1;
+        HasClosed = false;
+        _forbidden = -1;
+        DampedSteps += verdict.Stops;
+        _worst = verdict.Worst;
+        _worstError = verdict.Error;
+        _troubles = verdict.Troubles;
+        Damp(0);
     }
 
     // Closing what stood open before the step does work on springs.
@@ -185,6 +273,38 @@ internal sealed class StepController
         _isAudited &= !(isMoved && _closure.IsOpen());
         RattleStep<ScalarLane>.Rebuild(_batch);
         InitialVelocityProjection.Apply(_batch, _exact);
+    }
+
+    // Joints that stand apart, and that closing the pose cannot bring together, are not brought together by shorter steps either.
+    private bool IsTorn(double dt, bool isMoved)
+    {
+        bool isTorn = !_batch.Shape.IsInconsistent && !HasClosed && _closure.IsOpen() && _closure.IsTorn();
+        if (isTorn && !isMoved)
+        {
+            _start.Restore(_batch);
+            HasClosed = _closure.TryClose(_tolerance);
+            isTorn = !HasClosed && _closure.IsOpen() && _closure.IsTorn();
+        }
+
+        if (!isTorn)
+        {
+            if (HasClosed && !isMoved)
+            {
+                CloseInitialState(true);
+                _start.Save(_batch);
+                Audit(dt);
+            }
+            else
+            {
+                _start.Restore(_batch);
+            }
+
+            return false;
+        }
+
+        MeasureWorstResidual(_tolerance);
+        _troubles = StepTroubles.Open;
+        return true;
     }
 
     private int MostEven => _batch.ActiveSet == null ? MaxHalvings : MaxEvenHalvings;
@@ -247,6 +367,8 @@ internal sealed class StepController
             {
                 return false;
             }
+
+            _hasMoved = true;
         }
 
         return true;
@@ -268,6 +390,7 @@ internal sealed class StepController
         bool isHopeless = _dampedInStep == MaxDampedSteps;
         if (!isHopeless && _part.TryRattle(h, tolerance) && IsEnergyKept(depth, h))
         {
+            _hasMoved = true;
             _elapsed += h;
             return;
         }
@@ -295,7 +418,12 @@ internal sealed class StepController
 
             Return(start, h);
             _dampedInStep += isHopeless ? 0 : 1;
-            Damp();
+            DampedSteps++;
+            Damp(KeptSpeed);
+        }
+        else
+        {
+            _hasMoved = true;
         }
 
         _elapsed += h;
@@ -328,10 +456,8 @@ internal sealed class StepController
     }
 
     // The poses stay for this substep and the motion slows down, so that a state that no method can leave comes to rest.
-    private void Damp()
+    private void Damp(double share)
     {
-        const double share = 0.9;
-        DampedSteps++;
         for (int body = 0; body < _batch.Shape.MovingBodies; body++)
         {
             int o = LaneBatch<ScalarLane>.Body(body, BodyLanes.V);

@@ -64,14 +64,28 @@ internal sealed class ExactStepFindings
             }
         }
 
+        for (int i = 0; i < mechanism.StalledJoints.Count; i++)
+        {
+            StalledJoint first = mechanism.StalledJoints[i];
+            if (i == 0 || mechanism.StalledJoints[i - 1].Body != first.Body)
+            {
+                List<StalledJoint> all = mechanism.StalledJoints.FindAll(one => one.Body == first.Body);
+                (_, string pointer) = Place(mechanism, bodies, joints, all.Find(one => one.IsDrive).Joint, first.Body);
+                string names = string.Join(", ", all.Select(one => $"{NameOf(mechanism, bodies, joints, one.Joint, one.Body)} ({(one.IsDrive ? "drive" : "limit")})").Distinct());
+                Add(found, DiagnosticCodes.DriveStalled, pointer, ("joints", names), ("time", Text(time)));
+            }
+        }
+
         return found;
     }
 
-    private static string Named(MultibodySystem mechanism, IReadOnlyList<WorldBody> bodies, IReadOnlyList<WorldJoint> joints, in HeldLimit limit)
+    private static string Named(MultibodySystem mechanism, IReadOnlyList<WorldBody> bodies, IReadOnlyList<WorldJoint> joints, in HeldLimit limit) =>
+        $"{NameOf(mechanism, bodies, joints, limit.Joint, limit.Body)} (by {Length(limit.Error, limit.IsAngular)})";
+
+    private static string NameOf(MultibodySystem mechanism, IReadOnlyList<WorldBody> bodies, IReadOnlyList<WorldJoint> joints, JointModel of, int body)
     {
-        int joint = Array.IndexOf(mechanism.Joints, limit.Joint);
-        string name = joint >= 0 && joint < joints.Count ? joints[joint].NameInCad ?? joints[joint].Name : bodies[limit.Body].Id;
-        return $"{name} (by {Length(limit.Error, limit.IsAngular)})";
+        int joint = Array.IndexOf(mechanism.Joints, of);
+        return joint >= 0 && joint < joints.Count ? joints[joint].NameInCad ?? joints[joint].Name : bodies[body].Id;
     }
 
     // Behind the scene's joints stand those that freeze positions: there the body is what can be named.

@@ -235,7 +235,7 @@ public sealed partial class World
 
         _upkeep.BeforeStep(Threads);
         _solver.Step(dt);
-        if (_mechanism.Unsolved.Count > 0 || _mechanism.Closed.Count > 0 || _mechanism.ForbiddenSpeeds.Count > 0 || _mechanism.HeldLimits.Count > 0)
+        if (_mechanism.Unsolved.Count > 0 || _mechanism.Closed.Count > 0 || _mechanism.ForbiddenSpeeds.Count > 0 || _mechanism.HeldLimits.Count > 0 || _mechanism.StalledJoints.Count > 0)
         {
             List<Diagnostic> found = _exact.Of(_mechanism, Bodies, Joints, Time);
             Findings = found.Count > 0 ? Findings.Concat(new Report(found)) : Findings;

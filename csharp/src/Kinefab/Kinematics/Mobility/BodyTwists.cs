@@ -157,20 +157,8 @@ internal sealed class BodyTwists
     }
 
     // What may be in a block's velocity without being in its motion is none: a parallelogram's link with axes off by a little does not turn.
-    private List<double[]> Span(double[,] twists, Vector3d point, int block)
-    {
-        double least = Math.Max(LeastMotion, _loops[block].Here.Noise);
-        List<double[]> here = At(twists, point);
-        foreach (double[] twist in here)
-        {
-            for (int i = 0; i < Width; i++)
-            {
-                twist[i] = Math.Abs(twist[i]) > least ? twist[i] : 0;
-            }
-        }
-
-        return TwistSpan.Of(here, least);
-    }
+    private List<double[]> Span(double[,] twists, Vector3d point, int block) =>
+        TwistSpan.Moving(At(twists, point), Math.Max(LeastMotion, _loops[block].Here.Noise));
 
     private bool GoesOn(int block, int body)
     {

@@ -16,6 +16,24 @@ internal static class TwistSpan
         return Vectors(values, 0, values.Rank(least));
     }
 
+    /// <summary>
+    /// As Of, of what one body does in motions of several: entries that are none are left out of the span's directions, not of the twists,
+    /// whose entries depend on the motions that the span was told by.
+    /// </summary>
+    /// <param name="twists">Any number of them.</param>
+    /// <param name="least">Singular value, absolute, up to which one counts as none, and entry of a direction as long as its singular value.</param>
+    public static List<double[]> Moving(List<double[]> twists, double least)
+    {
+        SingularValues values = Decomposed(twists);
+        List<double[]> directions = Vectors(values, 0, values.Rank(least));
+        for (int k = 0; k < directions.Count; k++)
+        {
+            directions[k] = Array.ConvertAll(directions[k], entry => Math.Abs(entry) * values.Values[k] > least ? entry : 0);
+        }
+
+        return directions;
+    }
+
     /// <summary>What rows leave free.</summary>
     /// <param name="rows">Of unit length.</param>
     public static List<double[]> LeftBy(List<double[]> rows)

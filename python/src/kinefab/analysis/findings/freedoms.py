@@ -88,7 +88,7 @@ def body_twists(assembly: Assembly, singular: Mapping[int, Candidate]) -> list[A
         bodies += freedom.bodies.tolist()
         # what may be in a velocity without being in the motion is none: a parallelogram's link with axes off by a little does not turn
         none = max(LEAST, freedom.noise)
-        moving += list(np.where(np.abs(freedom.basis) > none, freedom.basis, 0.0).reshape(len(freedom.bodies), 6, -1))
+        moving += list(freedom.basis.reshape(len(freedom.bodies), 6, -1))
         least += [none] * len(freedom.bodies)
     for body, twists in zip(bodies, spans(moving, least=least)):
         own[body] = twists * np.repeat([relative.length[body] / length, 1.0], 3)[:, None]

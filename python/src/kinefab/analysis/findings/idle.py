@@ -29,7 +29,7 @@ ALONE = 1e-12
 NEW = 1e-6
 """Length of a motion beside those already found from which it is another one."""
 SOME = 1e-2
-"""Share of a motion up to which a block has no part in it: where velocities are obstructed, motions are known to a step's curvature."""
+"""Share of a motion up to which a block has no part in it where velocities are obstructed: motions are known to a step's curvature there."""
 NEAR = 4e-6
 """Difference of two unit twists, along any direction, beyond which they are not shared up to ``ALONE``."""
 ASLANT = np.array([0.37, 0.43, 0.29, 0.53, 0.41, 0.39])
@@ -207,7 +207,9 @@ def _freedoms_of_blocks(
             twists = moved_to_one_point(turned, freedom.bodies, assembly.relative)
             at_rest = np.zeros((1, 6, count))
             own = np.concatenate([twists, at_rest])[[place.get(bodies[node][0], -1) for node in nodes]]
-            count = int(np.linalg.matrix_rank((own - own[:1]).reshape(-1, count), tol=SOME))
+            # beside a steep rack a motion that is known exactly may be a small share of all that move
+            some = SOME if finite.singular else max(NEW, freedom.noise)
+            count = int(np.linalg.matrix_rank((own - own[:1]).reshape(-1, count), tol=some))
         found[block] = count if count > 1 else 0
     return found
 

@@ -9,6 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
+from itertools import pairwise
 
 import numpy as np
 
@@ -21,16 +22,15 @@ from .stacks import alike
 
 STEP = 1e-3
 """Size of a trial step, radians or fractions of the length."""
-SURVIVES = 0.005
-"""Relative change of a random step by which the whole null space still counts as motions (the motions'
-own curvature changes it by about STEP)."""
-TRIALS = 2
+SURVIVES = 5.0
+"""Relative change of a random step, over its size, by which the whole null space still counts as motions: their own curvature
+changes it by about its size."""
 DIRECTION = 0.05
 """Share of its length that a step must keep to count as a motion of its own."""
 WHOLE = 0.9
 """Share above which nothing is in doubt: a motion keeps all of itself, but for its curvature."""
-HIDDEN = 1e-3
-"""Share up to which nothing is left: an obstructed velocity keeps the root of the closing error over the step, some 1e-4."""
+HIDDEN = 1e-6
+"""Way up to which nothing is left: an obstructed velocity keeps the root of the closing error, some 1e-7, whatever the step."""
 ROUNDS = 3
 """Times that what is left of directions is tried again."""
 HALF = 0.5
@@ -48,6 +48,9 @@ FURTHER = 0.1
 """Size of the last step to where these start: larger, or they fall back to the singular pose and onto its other branches."""
 MOST_FURTHER = 5
 """Such steps, while what is left of some velocity is in doubt."""
+PROBES = (1e-2, 0.2)
+"""Sizes of the trial steps of a singular part.  The longer one decides: what the fourth power of the way obstructs keeps the
+fourth root of the closing error, some 1e-2 where rows that nearly repeat each other hold up the closing."""
 WALK = 3
 WALK_STEP = 0.05
 NOISY_GAP = 1e10
@@ -59,6 +62,8 @@ MOVES = 1e-6
 """Share of a velocity up to which a body stands still in it."""
 OPEN = 1e4
 """Times the error asked for beyond which a pose that was to be closed got stuck: it is none of the mechanism's."""
+SQUARE = 1e-2
+"""Share of a trial step whose square is no more open than that: it hides no more of what is obstructed."""
 
 
 @dataclass(slots=True, eq=False)
@@ -88,10 +93,10 @@ def finite_freedoms(solver: Solver, first_order: list[BlockFreedom], start: Stat
         for part in np.flatnonzero(doubtful).tolist():
             noisy = first_order[part].gap < NOISY_GAP or floor[part] > NOISE
             doubtful[part] = not (noisy and moves_up_to_noise(solver.alone(part), first_order[part]))
-        for _ in range(TRIALS):
+        for step in (STEP, PROBES[0]):
             directions = _random_directions(blocks, np.flatnonzero(doubtful).tolist(), draw)
-            moved = _trial(solver, blocks, start, directions, floor=floor) if directions else {}
-            for part in _changed(directions, moved):
+            moved, _ = _trial(solver, blocks, start, directions, step, floor) if directions else ({}, set())
+            for part in _changed(directions, moved, SURVIVES * step):
                 found[part] = _searched(solver, part, first_order[part])
                 doubtful[part] = False
     return found
@@ -112,14 +117,14 @@ def _random_directions(
     return found
 
 
-def _changed(directions: Mapping[int, Array], moved: Mapping[int, Array]) -> list[int]:
-    """Parts of whose direction a trial step has kept less than ``SURVIVES`` asks for, ascending."""
+def _changed(directions: Mapping[int, Array], moved: Mapping[int, Array], most: float) -> list[int]:
+    """Parts of whose direction a trial step has changed more than a share, ascending."""
     parts, changed = list(directions), list[int]()
     for _, group in alike(directions[p].shape for p in parts):
         places: list[int] = group.tolist()
         members = [parts[i] for i in places]
         wanted, kept = (np.array([own[p] for p in members]) for own in (directions, moved))
-        lost = np.linalg.norm(kept - wanted, axis=1) > SURVIVES * np.linalg.norm(wanted, axis=1)
+        lost = np.linalg.norm(kept - wanted, axis=1) > most * np.linalg.norm(wanted, axis=1)
         changed += [p for p, gone in zip(members, lost.tolist()) if gone]
     return sorted(changed)
 
@@ -127,7 +132,7 @@ def _changed(directions: Mapping[int, Array], moved: Mapping[int, Array]) -> lis
 def displaced(solver: Solver, first_order: Mapping[int, BlockFreedom], start: State) -> dict[int, Array]:
     """Displacements over STEP of some parts' bodies after a random small motion, by part, shape (6 n,) each."""
     directions = {p: _random_direction(f.basis, np.random.default_rng(11)) for p, f in first_order.items()}
-    return _trial(solver, first_order, start, directions) if directions else {}
+    return _trial(solver, first_order, start, directions)[0] if directions else {}
 
 
 def stepped(
@@ -160,8 +165,11 @@ def _trial(
     directions: dict[int, Array],
     step: float = STEP,
     floor: Array | None = None,
-) -> dict[int, Array]:
-    """Displacements (6 n of each part), over ``step``, after a step along each direction and back onto the rows.
+    *,
+    keep: bool = False,
+) -> tuple[dict[int, Array], set[int]]:
+    """Displacements (6 n of each part), over ``step``, after a step along each direction and back onto the rows; and the parts
+    that did not come back onto them, which have kept nothing unless told to ``keep``.
 
     floor: see ``_floor``, where it is known."""
     bodies = np.concatenate([first_order[p].bodies for p in directions])
@@ -171,10 +179,12 @@ def _trial(
     state = solver.system.moved(start, bodies, twists)
     floor = _floor(solver, start) if floor is None else floor
     state, left = solver.project(state, active, floor)
-    stuck = left > OPEN * floor  # what does not come back onto the rows has kept nothing
+    most = np.maximum(OPEN * floor, (SQUARE * step) ** 2)
+    stuck = {part for part in directions if left[part] > most[part]}
     moved = _displacement(solver, bodies, start, state) / step
     ends: list[int] = np.cumsum([6 * len(first_order[p].bodies) for p in directions]).tolist()
-    return {part: moved[at:end] * (not stuck[part]) for part, at, end in zip(directions, [0, *ends], ends)}
+    own = zip(directions, [0, *ends], ends)
+    return {part: moved[at:end] * (keep or part not in stuck) for part, at, end in own}, stuck
 
 
 def _displacement(solver: Solver, bodies: IntArray, start: State, end: State) -> Array:
@@ -212,7 +222,8 @@ def _searched(solver: Solver, part: int, first_order: BlockFreedom) -> FiniteFre
     there = block_freedoms(solver, away)
     if there[part].mobility * len(first_order.basis) > MOST_WORK:
         return _found_far_away(solver, part, there, away)
-    tangent = _beyond_doubt(solver, part, there[part], away)
+    floor = _floor(solver, start)
+    tangent = _beyond_doubt(solver, part, there[part], away, floor)
     if tangent.shape[1] == 0:
         return FiniteFreedom(*_with_bodies_at_rest(solver, first_order, start), True)
     if first_order.mobility > MOST_DIRECTIONS:
@@ -220,25 +231,28 @@ def _searched(solver: Solver, part: int, first_order: BlockFreedom) -> FiniteFre
     here = _survivors(solver, part, first_order, start)
     if here.shape[1] > tangent.shape[1]:  # the way led onto a smaller branch, or several branches meet here
         away = walked(solver, part, first_order, start, seed=6)
-        other = _beyond_doubt(solver, part, block_freedoms(solver, away)[part], away)
+        other = _beyond_doubt(solver, part, block_freedoms(solver, away)[part], away, floor)
         tangent = other if other.shape[1] > tangent.shape[1] else tangent
     return FiniteFreedom(tangent.shape[1], here if here.shape[1] == tangent.shape[1] else tangent, True)
 
 
-def _beyond_doubt(solver: Solver, part: int, freedom: BlockFreedom, state: State) -> Array:
+def _beyond_doubt(solver: Solver, part: int, freedom: BlockFreedom, state: State, floor: Array) -> Array:
     """As ``_survivors``; while some velocity keeps a part of itself only, as where two branches of motions touch each other, from
-    poses further away."""
+    poses further away.  floor: of the pose where the walk to the state began."""
     for further in range(MOST_FURTHER):
-        if not freedom.mobility:
-            break
-        ways, share = _kept(solver, part, freedom, state, STEP)
-        if not np.any((share > DIRECTION) & (share < WHOLE)):
-            return ways[:, share > DIRECTION]
+        ways = freedom.basis
+        share = np.zeros(0)
+        for step in PROBES:
+            if ways.shape[1]:
+                ways, share = _kept(solver, part, replace(freedom, basis=ways), state, step, floor)
+                ways, share = ways[:, share > DIRECTION], share[share > DIRECTION]
+        if not np.any(share < WHOLE):
+            return ways
         if further == MOST_FURTHER - 1:
             return ways[:, share > HALF]
         state, there = _further(solver, part, freedom, state)
         freedom = there[part]
-    return np.zeros((6 * len(freedom.bodies), 0))
+    raise AssertionError("the last round returns")
 
 
 def _found_far_away(
@@ -273,7 +287,7 @@ def _with_bodies_at_rest(solver: Solver, first_order: BlockFreedom, start: State
     if not 1 < first_order.mobility <= MOST_DIRECTIONS:
         return found
     for way in _velocities_at_rest(first_order):
-        left = _left_of(solver, 0, first_order, start, way, STEP)
+        left, _ = _left_of(solver, 0, first_order, start, way, STEP)
         if np.linalg.norm(left) < 1.0 - DIRECTION:
             continue
         twist = WALK_STEP * (way / np.abs(way).max()).reshape(-1, 6)
@@ -308,9 +322,8 @@ def _further(
 ) -> tuple[State, list[BlockFreedom]]:
     """A pose further away, and the first order there: of many random velocities the obstructed ones take the others
     along, so that the pose has hardly moved; what a trial step leaves of one is a motion that goes on."""
-    way = _left_of(
-        solver, part, freedom, state, _random_direction(freedom.basis, np.random.default_rng(29)), LONG_STEP
-    )
+    random = _random_direction(freedom.basis, np.random.default_rng(29))
+    way, _ = _left_of(solver, part, freedom, state, random, LONG_STEP)
     if (size := np.abs(way).max()) > 0.0:
         twist = FURTHER * (way / size).reshape(-1, 6)
         state, _ = solver.project(
@@ -328,20 +341,22 @@ def _survivors(solver: Solver, part: int, freedom: BlockFreedom, state: State, s
 
 
 def _kept(
-    solver: Solver, part: int, freedom: BlockFreedom, state: State, step: float
+    solver: Solver, part: int, freedom: BlockFreedom, state: State, step: float, floor: Array | None = None
 ) -> tuple[Array, Array]:
     """Orthonormal directions of what trial steps both ways leave of a basis, shape (6 n, m), and the share left of each.
 
-    An obstructed velocity takes a motion back along with it: what is left of directions that hold both is tried again by
-    itself.
+    An obstructed velocity takes a motion back along with it, or does not come back onto the rows with it: what is left of
+    directions that hold both is tried again by itself before it has kept nothing.
     """
     basis = freedom.basis
-    for _ in range(ROUNDS):
-        left = [_left_of(solver, part, freedom, state, direction, step) for direction in basis.T]
-        u, s, _ = np.linalg.svd(np.array(left).T, full_matrices=False)
-        if not np.any((s > HIDDEN) & (s < WHOLE)):
+    for last in (*(False for _ in range(1, ROUNDS)), True):
+        tried = [
+            _left_of(solver, part, freedom, state, direction, step, floor, keep=not last) for direction in basis.T
+        ]
+        u, s, _ = np.linalg.svd(np.array([left for left, _ in tried]).T, full_matrices=False)
+        if not (any(stuck for _, stuck in tried) or np.any((s > HIDDEN / step) & (s < WHOLE))):
             break
-        basis = u[:, s > HIDDEN]
+        basis = u[:, s > HIDDEN / step]
     return u, s
 
 
@@ -351,7 +366,7 @@ def _sampled(solver: Solver, part: int, freedom: BlockFreedom, state: State) -> 
     draw = np.random.default_rng(31)
     kept: list[Array] = []
     for _ in range(MOST_SAMPLES):
-        kept.append(_left_of(solver, part, freedom, state, _random_direction(freedom.basis, draw), LONG_STEP))
+        kept.append(_left_of(solver, part, freedom, state, _random_direction(freedom.basis, draw), LONG_STEP)[0])
         u, s, _ = np.linalg.svd(np.array(kept).T, full_matrices=False)
         # A random direction's share of one motion.
         least = DIRECTION * max(s[0], 1.0 / np.sqrt(freedom.mobility))
@@ -361,11 +376,21 @@ def _sampled(solver: Solver, part: int, freedom: BlockFreedom, state: State) -> 
 
 
 def _left_of(
-    solver: Solver, part: int, freedom: BlockFreedom, state: State, direction: Array, step: float
-) -> Array:
-    """What trial steps both ways leave of a direction, as a share of its length, shape (6 n,)."""
+    solver: Solver,
+    part: int,
+    freedom: BlockFreedom,
+    state: State,
+    direction: Array,
+    step: float,
+    floor: Array | None = None,
+    *,
+    keep: bool = False,
+) -> tuple[Array, bool]:
+    """What trial steps both ways leave of a direction, as a share of its length, shape (6 n,); and whether one did not come back
+    onto the rows, see ``_trial``."""
     direction = direction / np.abs(direction).max()
     there, back = (
-        _trial(solver, {part: freedom}, state, {part: way}, step)[part] for way in (direction, -direction)
+        _trial(solver, {part: freedom}, state, {part: way}, step, floor, keep=keep) for way in (direction, -direction)
     )
-    return 0.5 * (there - back) / np.linalg.norm(direction)
+    left = 0.5 * (there[0][part] - back[0][part]) / np.linalg.norm(direction)
+    return left, bool(there[1] or back[1])

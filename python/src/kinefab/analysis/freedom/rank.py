@@ -65,7 +65,7 @@ def spans(
     """Orthonormal bases, shape (m, rank), of the spans of columns, shape (m, n) each.
 
     cut: share of the largest singular value up to which one counts as a rounding; None puts it in the largest gap.
-    least: instead, of each, the singular value up to which one counts as none.
+    least: instead, of each, the singular value up to which one counts as none; the bases keep no entry that small times it.
     """
     found = list(columns)
     for _, group in alike(own.shape for own in columns):
@@ -75,7 +75,9 @@ def spans(
             stack = np.swapaxes(np.linalg.qr(np.swapaxes(stack, 1, 2), mode="r"), 1, 2)
         u, s, _ = np.linalg.svd(stack, full_matrices=False)
         if least is not None:
-            rank = np.sum(s > np.array([least[i] for i in members])[:, None], axis=1)
+            none = np.array([least[i] for i in members])
+            rank = np.sum(s > none[:, None], axis=1)
+            u = np.where(np.abs(u) * s[:, None] > none[:, None, None], u, 0.0)
         else:
             rank = rank_of(s)[0] if cut is None and s.size else np.sum(s > (cut or 0.0) * s[:, :1], axis=1)
         for i, basis, count in zip(members, u, rank):

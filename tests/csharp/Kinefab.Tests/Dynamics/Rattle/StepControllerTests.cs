@@ -198,6 +198,7 @@ internal sealed class StepControllerTests
         LaneTransfer<ScalarLane>.GatherConstants(batch, 0, island, mechanism);
         var controller = new StepController(batch);
         SubstepHistory cut = default(SubstepHistory);
+        var still = new Standstill();
         double most = 0;
         int tries = 0;
         for (int i = 0; i < steps; i++)
@@ -213,7 +214,7 @@ internal sealed class StepControllerTests
             }
 
             most = System.Math.Max(most, StepLimit.Of(stiffest, batch.Work.Fastest[0], dt));
-            controller.Advance(dt, 1e-9, ref cut, false, false);
+            controller.Advance(dt, 1e-9, ref cut, still, false, false);
             tries = System.Math.Max(tries, controller.Tries);
             LaneTransfer<ScalarLane>.EndStep(batch);
             LaneTransfer<ScalarLane>.Scatter(batch, 1, mechanism);

@@ -62,6 +62,9 @@ internal struct ScalarRow
     /// <summary>A compliance beyond this share of the row's response stands for a spring that hardly acts.</summary>
     public const double LeastResponse = 1e-200;
 
+    /// <summary>A bound of force beyond this is none: Unity's own "no limit" is the largest float, 3.4e38.</summary>
+    public const double Endless = 1e30;
+
     public RowKind Kind;
     public RowState State;
 
@@ -107,6 +110,9 @@ internal struct ScalarRow
     /// <summary>Speed of the row at the start of the step; in an impact, before it.</summary>
     public double StartSpeed;
 
+    /// <summary>Whether a drive without limit of force gave, in the last piece of a part, all that <see cref="BoundForce"/> leaves it.</summary>
+    public bool IsStalled;
+
     /// <summary>Time since the joint left its limit, as far as it was in this part of a step; else infinite, s.</summary>
     public double Flight;
 
@@ -140,6 +146,9 @@ internal struct ScalarRow
     public int Block;
     public int BlockRow;
     public int Index;
+
+    /// <summary>Whether a drive's force has no bound to a side.</summary>
+    public readonly bool IsEndless => Math.Max(Built.Maximum, -Built.Minimum) > Endless;
 
     /// <summary>What the row is to the step that begins at the pose where it was written.</summary>
     /// <param name="reach">C up to which a soft limit counts as reached, m or rad.</param>
@@ -191,19 +200,24 @@ internal struct ScalarRow
         High = Built.Maximum * (isForce ? h : 1);
     }
 
+    /// <summary>The C that is wanted of a prescribed motion at the end of the step, of e^(-x) to second order and never beyond the goal.</summary>
+    /// <param name="h">Step, s.</param>
+    public void SetMotion(double h) => EndError = StartError / Growth(h);
+
     /// <summary>
-    /// The C that is wanted, of e^(-x) to second order and never beyond the goal. A force without limit ends at what no mechanism needs, so that what
-    /// the motion cannot move, as a limit or a dead point, has a finite answer.
+    /// A force without limit ends at what no mechanism needs, so that what the drive cannot move, as a limit, a dead point or another such drive, has
+    /// a finite answer: the drive stalls.
     /// </summary>
     /// <param name="h">Step, s.</param>
-    /// <param name="response">J M^-1 J^T, 1/kg or 1/(kg m^2).</param>
-    public void SetMotion(double h, double response)
+    /// <param name="inertia">The most that the drive may have to move, kg or kg m^2.</param>
+    public void BoundForce(double h, double inertia)
     {
-        const double mostAcceleration = 1e6;
-        EndError = StartError / Growth(h);
-        double most = mostAcceleration * Math.Max(1, Math.Abs(StartError)) * h / response;
-        Low = Math.Max(Low, -most);
-        High = Math.Min(High, most);
+        const double mostAcceleration = 1e3;
+        const double mostSpeeds = 4;
+        double speed = Kind == RowKind.Motion ? (EndError - StartError) / h : Built.VelocityTarget;
+        double impulse = inertia * (mostSpeeds * Math.Abs(speed) + mostAcceleration * h);
+        Low = Built.Minimum < -Endless ? Math.Max(Low, -impulse) : Low;
+        High = Built.Maximum > Endless ? Math.Min(High, impulse) : High;
     }
 
     /// <summary>By how much a prescribed motion's C was larger a time before.</summary>

@@ -79,7 +79,7 @@ internal sealed partial class ActiveSet<V>
         return sum;
     }
 
-    /// <summary>Energy in all springs, each off by a distance, J.</summary>
+    /// <summary>What all springs hold more at most where each is off by a distance, J.</summary>
     /// <param name="distance">m or rad.</param>
     public double LargestStoredEnergy(double distance)
     {
@@ -87,7 +87,7 @@ internal sealed partial class ActiveSet<V>
         for (int i = 0; i < _rows.Length; i++)
         {
             ref ScalarRow scalar = ref _rows[i];
-            sum += scalar.IsActive && scalar.Built.Has(RowFlags.Spring) ? Stiffness(scalar) * distance * distance : 0;
+            sum += scalar.IsActive && scalar.Built.Has(RowFlags.Spring) ? Stiffness(scalar) * distance * (distance + Math.Abs(scalar.Built.GeometricError)) : 0;
         }
 
         return sum;

@@ -85,7 +85,12 @@ internal sealed partial class ActiveSet<V>
             scalar.SetBounds(h, _batch.Models[scalar.Block]!.DriveLimitsAreForces);
             if (scalar.Kind == RowKind.Motion)
             {
-                scalar.SetMotion(h, response);
+                scalar.SetMotion(h);
+            }
+
+            if (scalar.Kind is RowKind.SpeedMotor or RowKind.Motion && scalar.IsEndless)
+            {
+                scalar.BoundForce(h, IslandInertia(scalar));
             }
 
             if (scalar.Kind == RowKind.Spring)
@@ -108,7 +113,7 @@ internal sealed partial class ActiveSet<V>
                 scalar.State = RowState.Free;
             }
 
-            if (response < ScalarRow.LeastResponse)
+            if (response < ScalarRow.LeastResponse || !(scalar.High > scalar.Low))
             {
                 scalar.Kind = RowKind.None;
                 scalar.State = RowState.AtBound;
@@ -155,6 +160,20 @@ internal sealed partial class ActiveSet<V>
         }
 
         WriteRows(false);
+    }
+
+    /// <summary>Lets hard limits stand passed as far as they are where the rows were last built; false where none is.</summary>
+    public bool AllowPassed()
+    {
+        bool isAny = false;
+        for (int i = 0; i < _rows.Length; i++)
+        {
+            ref ScalarRow scalar = ref _rows[i];
+            scalar.Allowed = scalar.IsActive && IsHardLimit(scalar.Built) ? Math.Min(0, scalar.Built.GeometricError) : 0;
+            isAny |= scalar.Allowed < 0;
+        }
+
+        return isAny;
     }
 
     /// <summary>Clears a right-hand side where the impulse is not the matrix's to find.</summary>
@@ -204,16 +223,13 @@ internal sealed partial class ActiveSet<V>
     /// <param name="reach">C up to which a limit counts as reached, m or rad.</param>
     public StepTroubles Troubles(double reach)
     {
-        // Unity's own "no limit" is the largest float, 3.4e38.
-        const double endless = 1e30;
         StepTroubles found = StepTroubles.None;
         for (int i = 0; i < _rows.Length; i++)
         {
             ref readonly ConstraintRow row = ref _rows[i].Built;
-            bool isEndless = row.Has(RowFlags.Drive) && Math.Max(row.Maximum, -row.Minimum) > endless;
             found |= !_rows[i].IsActive ? StepTroubles.None
                 : IsHardLimit(row) && row.GeometricError <= reach ? StepTroubles.Limit
-                : isEndless ? StepTroubles.EndlessDrive
+                : row.Has(RowFlags.Drive) && _rows[i].IsEndless ? StepTroubles.EndlessDrive
                 : StepTroubles.None;
         }
 
@@ -231,6 +247,31 @@ internal sealed partial class ActiveSet<V>
 
         return i < _rows.Length ? i : -1;
     }
+
+    /// <summary>The most that an endless drive which stalls gives, as the speed that it would give its own bodies times the root of what they weigh; 0 where none does.</summary>
+    public double StalledWeight()
+    {
+        double most = 0;
+        for (int i = 0; i < _rows.Length; i++)
+        {
+            most = _rows[i].IsStalled ? Math.Max(most, Weight(_rows[i])) : most;
+        }
+
+        return most;
+    }
+
+    /// <summary>Whether a row is a hard limit that is pressed by as much as a drive which stalls gives: others only carry the mechanism.</summary>
+    public bool IsPushed(in ScalarRow scalar, double stalledWeight)
+    {
+        const double leastShare = 0.01;
+        return scalar.IsActive && IsHardLimit(scalar.Built) && scalar.State == RowState.Free && Weight(scalar) > leastShare * stalledWeight;
+    }
+
+    // A row's impulse by the speed at which its own bodies would part: of all rows in one unit, that of the root of an energy.
+    private double Weight(in ScalarRow scalar) => Math.Abs(_batch.Work.TotalImpulses[scalar.Index]) * Math.Sqrt(Response(scalar));
+
+    /// <summary>How many rows there are.</summary>
+    public int Count => _rows.Length;
 
     /// <summary>A row.</summary>
     public ref readonly ScalarRow Row(int index) => ref _rows[index];
@@ -301,6 +342,26 @@ internal sealed partial class ActiveSet<V>
                 _ => product[k] + vector[k] / (isDrift ? scalar.Theta * scalar.ImplicitDamping : scalar.CorrectionGain),
             };
         }
+    }
+
+    // Of all bodies as one, their mass, or their largest moments about the joint's frame; much more where gears may make it so.
+    private double IslandInertia(in ScalarRow scalar)
+    {
+        const double mostByGears = 1e3;
+        bool isAngular = scalar.Built.Has(RowFlags.Angular);
+        Vector3d anchor = LaneTransfer<V>.ReadPose(_batch, _batch.Shape.Blocks[scalar.Block].Bodies[0], 0).Point(_batch.Models[scalar.Block]!.Frame0.Position);
+        double sum = 0;
+        for (int body = 0; body < _batch.Shape.MovingBodies; body++)
+        {
+            int o = LaneRecords<V>.Body(body, 0);
+            double mass = Inverse(_batch.Bodies[o + BodyLanes.InverseMass]);
+            double square = (LaneTransfer<V>.ReadVector(_batch.Bodies, o + BodyLanes.EndX) - anchor).LengthSquared;
+            sum += isAngular ? mass * square + Inverse(_batch.Bodies[o + BodyLanes.LeastInverseInertia]) : mass;
+        }
+
+        return _batch.Shape.HasCouplings ? mostByGears * sum : sum;
+
+        static double Inverse(double number) => number > 0 ? 1 / number : 0;
     }
 
     private double StartSpeed(in ScalarRow scalar) => Impulses<V>.Speed(_batch, scalar.Block, scalar.Built);

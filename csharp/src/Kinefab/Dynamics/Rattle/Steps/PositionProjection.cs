@@ -20,6 +20,12 @@ internal sealed class PositionProjection
     // Iterations without a smaller error after which there is no place where all rows hold.
     private const int MaxIdle = 30;
 
+    // An error that does not fall below this share of itself in an iteration falls slowly.
+    private const double SlowShare = 0.5;
+
+    // Such iterations in a row that the matrix's compliance may have.
+    private const int MostSlow = 5;
+
     // Largest turn of a body in an iteration, rad.
     private const double MostTurn = 0.5;
 
@@ -53,6 +59,24 @@ internal sealed class PositionProjection
     /// <summary>Whether the end pose stands open by more than <see cref="MostOpen"/>; the rows have to be built anew after it.</summary>
     public bool IsOpen() => !(Evaluate() <= MostOpen);
 
+    /// <summary>Whether it is joints, not limits alone, that stand open by so much, after <see cref="IsOpen"/>.</summary>
+    public bool IsTorn()
+    {
+        for (int n = 0; n < _batch.Shape.Blocks.Length; n++)
+        {
+            int first = _batch.Shape.Pattern.Rows[n];
+            for (int row = first; row < first + _batch.Shape.Blocks[n].BilateralCount; row++)
+            {
+                if (!(Math.Abs(_batch.Work.Error[row]) <= MostOpen))
+                {
+                    return true;
+                }
+            }
+        }
+
+        return false;
+    }
+
     /// <summary>
     /// Moves the bodies from their start pose to the nearest closed one, their speeds turned with them, and builds the rows
     /// there. False, with all as it was, when it is open by too little or does not close.
@@ -67,7 +91,9 @@ internal sealed class PositionProjection
         }
 
         SaveStart();
-        bool isClosed = IsOpen() && Iterate(tolerance);
+        bool isOpen = IsOpen();
+        bool isTorn = isOpen && IsTorn();
+        bool isClosed = isOpen && (Iterate(tolerance) || (isTorn && TryWithLimitsAsTheyStand(tolerance)));
         for (int body = 0; body < _batch.Shape.MovingBodies; body++)
         {
             Finish(body, isClosed);
@@ -105,9 +131,27 @@ internal sealed class PositionProjection
         return isClosed;
     }
 
+    // Limits that cannot be closed with the rest stay passed as far as they are: see ScalarRow.Allowed.
+    private bool TryWithLimitsAsTheyStand(double tolerance)
+    {
+        FreeMotion<ScalarLane>.Stay(_batch);
+        RattleStep<ScalarLane>.Rebuild(_batch);
+        if (_batch.ActiveSet == null || !_batch.ActiveSet.AllowPassed())
+        {
+            return false;
+        }
+
+        _keepsAllowed = true;
+        bool isClosed = Iterate(tolerance);
+        _keepsAllowed = false;
+        return isClosed;
+    }
+
     private bool Iterate(double tolerance)
     {
         double least = double.PositiveInfinity;
+        double last = double.PositiveInfinity;
+        int slow = 0;
         int idle = 0;
         for (int iteration = 0; iteration < MaxIterations && idle < MaxIdle; iteration++)
         {
@@ -125,7 +169,11 @@ internal sealed class PositionProjection
 
             idle = error < least ? 0 : idle + 1;
             least = Math.Min(least, error);
-            if (!(error < double.MaxValue) || !Move())
+
+            // What falls slowly is what the compliance hides; far from closed, rows that repeat each other differ by more than that.
+            slow = error < last && (slow > MostSlow || error > SlowShare * last) ? slow + 1 : 0;
+            last = error;
+            if (!(error < double.MaxValue) || !Move(_keepsAllowed || slow > MostSlow))
             {
                 return false;
             }
@@ -180,7 +228,7 @@ internal sealed class PositionProjection
         }
     }
 
-    private bool Move()
+    private bool Move(bool isExact)
     {
         Island shape = _batch.Shape;
         double[] solution = _batch.Work.Solution;
@@ -192,13 +240,12 @@ internal sealed class PositionProjection
             solution[i] = -_batch.Work.Error[i];
         }
 
-        if (_keepsAllowed)
+        if (isExact)
         {
             _exact.Solve(false);
         }
         else
         {
-            // Far from closed, rows that repeat each other differ by more than the compliance.
             DelassusMatrix<ScalarLane>.Solve(_batch, solution);
         }
 

@@ -1,0 +1,177 @@
+using System;
+using System.Linq;
+using Kinefab.Diagnostics;
+using Kinefab.Document;
+using Kinefab.Dynamics;
+using Kinefab.Dynamics.Rattle;
+using Kinefab.Joints;
+using Kinefab.Numerics;
+using NUnit.Framework;
+
+namespace Kinefab.Tests.Dynamics.Rattle;
+
+/// <summary>
+/// Drives without limit of force that cannot move as asked, and joints that stand apart: named, and at a step's cost. Two such motors against each
+/// other took 280 parts a step, one on a frame that cannot move 8,000, a bar between pins that are too far apart searched anew in each step.
+/// </summary>
+internal sealed class ContradictionTests
+{
+    private const double Dt = 1.0 / 60;
+
+    // Parts beyond the first, a step.
+    private const double MostParts = 2;
+
+    [TestCase(1, -1, float.MaxValue)]
+    [TestCase(1, -3, float.MaxValue)]
+    [TestCase(-2, 7, double.PositiveInfinity)]
+    public void Motors_AgainstEachOther_StallAtThePriceOfAStep(double first, double second, double force)
+    {
+        var b = new MechanismBuilder();
+        int bar = b.Bar(Vector3d.Zero, Vector3d.UnitX, 1);
+        Motor(b.Hinge(JointModel.World, bar, Vector3d.Zero, Vector3d.UnitZ), first, force);
+        Motor(b.Hinge(JointModel.World, bar, Vector3d.Zero, Vector3d.UnitZ), second, force);
+        MultibodySystem m = b.Build();
+
+        AssertCheap(m, 60);
+
+        Assert.That(m.StalledJoints.Exists(joint => joint.IsDrive));
+        Assert.That(m.Bodies.AngularVelocities[0].Z, Is.InRange(Math.Min(first, second) - 1e-6, Math.Max(first, second) + 1e-6));
+    }
+
+    [Test]
+    public void Motor_OnAFrameThatCannotMove_StallsAtThePriceOfAStep()
+    {
+        var b = new MechanismBuilder();
+        var top = new Vector3d(0.3, 1, 0);
+        int left = b.Bar(Vector3d.Zero, Vector3d.UnitX, 1);
+        int right = b.Bar(Vector3d.UnitX, top, 1);
+        Motor(b.Hinge(JointModel.World, left, Vector3d.Zero, Vector3d.UnitZ), 2, double.PositiveInfinity);
+        b.Hinge(left, right, Vector3d.UnitX, Vector3d.UnitZ);
+        b.Hinge(JointModel.World, right, top, Vector3d.UnitZ);
+        MultibodySystem m = b.Build();
+
+        AssertCheap(m, 30);
+
+        Assert.That(m.StalledJoints.Select(joint => (joint.Joint, joint.IsDrive)), Is.EqualTo(new[] { (m.Joints[0], true) }));
+        Assert.That(MechanismMeasures.Drift(m), Is.LessThanOrEqualTo(1e-8));
+    }
+
+    /// <summary>A motor of a light crank lifts whatever hangs on it: its force ends far above that.</summary>
+    [TestCase(1e-3, 1e3)]
+    [TestCase(1e-4, 1)]
+    [TestCase(1, 1)]
+    public void Motor_OfALightCrankWithAHeavyArm_KeepsItsSpeed(double crank, double arm)
+    {
+        var b = new MechanismBuilder();
+        int light = b.Bar(Vector3d.Zero, 0.02 * Vector3d.UnitX, crank, 0.005);
+        int heavy = b.Bar(0.02 * Vector3d.UnitX, 3 * Vector3d.UnitX, arm);
+        Motor(b.Hinge(JointModel.World, light, Vector3d.Zero, Vector3d.UnitZ), 2, double.PositiveInfinity);
+        b.Add(new D6Joint(), light, heavy, 0.02 * Vector3d.UnitX, Vector3d.UnitZ);
+        MultibodySystem m = b.Build();
+        var solver = new RattleSolver(m);
+        for (int i = 0; i < 60; i++)
+        {
+            solver.Step(Dt);
+            Assert.That(m.Bodies.AngularVelocities[heavy].Z, Is.EqualTo(2).Within(0.03), $"step {i}");
+        }
+
+        Assert.That((m.Stops, m.StalledJoints.Count), Is.EqualTo((0, 0)));
+    }
+
+    [Test]
+    public void Motors_AgainstEachOtherAndALimit_AreNamed()
+    {
+        var body = new Rigidbody { Mass = 1, InertiaTensor = new Vector3d(0.1, 0.1, 0.1), AngularDamping = 0, MaxAngularVelocity = 100 };
+        HingeJoint Hinge(double speed, double max) => new()
+        {
+            Axis = Vector3d.UnitZ,
+            UseMotor = speed != 0,
+            Motor = new JointMotor { TargetVelocity = speed, Force = float.MaxValue },
+            UseLimits = max < 180,
+            Limits = new JointLimits { Min = -max, Max = max },
+        };
+        GameObject own = new() { Id = "own", Name = "own", Components = [body, Hinge(90, 180), Hinge(0, 30)] };
+        World world = World.Create(SmallScene.Validate(new SceneDocument { GameObjects = [own] }), SolverKind.Exact);
+
+        for (int i = 0; i < 100; i++)
+        {
+            world.Step(0.02);
+        }
+
+        Diagnostic found = world.Findings.Diagnostics.Single();
+        Assert.That((found.Code, found.Pointer), Is.EqualTo((DiagnosticCodes.DriveStalled, "/gameObjects/0/components/1")));
+        Assert.That(found.Message, Does.Contain("own[1] (drive), own[2] (limit)"));
+        Assert.That(world.Joints[0].Coordinate(Coordinate.Angle), Is.EqualTo(30).Within(1e-5));
+        Assert.That(world.Stops, Is.Zero);
+    }
+
+    /// <summary>A bar between a pin of the world and one that is carried out of its reach and back.</summary>
+    [Test]
+    public void Pins_CarriedApartAndBack_StandMeanwhileAndGoOn()
+    {
+        MultibodySystem m = CarriedPin();
+        var solver = new RattleSolver(m);
+        Drive(m, 2.6);
+        solver.Step(Dt);
+        Assert.That(m.Stops, Is.Positive);
+        for (int i = 0; i < 20; i++)
+        {
+            solver.Step(Dt);
+        }
+
+        int stops = m.Stops;
+        double work = m.SubstepWork;
+        Pose stood = m.Bodies.Poses[0];
+        solver.Step(Dt);
+        Assert.That((m.Stops > stops, m.Unsolved.Count), Is.EqualTo((true, 1)), "it is said in each step");
+        Assert.That(m.SubstepWork, Is.EqualTo(work), "and searched in the first alone");
+        Assert.That(m.Bodies.Poses[0], Is.EqualTo(stood));
+
+        Drive(m, 1.3);
+        solver.Step(Dt);
+        stops = m.Stops;
+        for (int i = 0; i < 20; i++)
+        {
+            solver.Step(Dt);
+        }
+
+        Assert.That(m.Stops, Is.EqualTo(stops));
+        Assert.That(MechanismMeasures.Drift(m), Is.LessThanOrEqualTo(1e-8));
+
+        static void Drive(MultibodySystem m, double x) => m.Bodies.KinematicTargets[2] = new Pose(new Vector3d(x, 0, 0), m.Bodies.Poses[2].Rotation);
+    }
+
+    private static MultibodySystem CarriedPin()
+    {
+        var b = new MechanismBuilder();
+        int bar = b.Bar(Vector3d.Zero, new Vector3d(0.6, 0.8, 0), 1);
+        int other = b.Bar(new Vector3d(0.6, 0.8, 0), new Vector3d(1.2, 0, 0), 1);
+        b.Hinge(JointModel.World, bar, Vector3d.Zero, Vector3d.UnitZ);
+        b.Hinge(bar, other, new Vector3d(0.6, 0.8, 0), Vector3d.UnitZ);
+        int carrier = b.Bar(new Vector3d(1.2, 0, 0), new Vector3d(1.4, 0, 0), 1);
+        b.Change(carrier, d => d with { IsKinematic = true });
+        b.Hinge(carrier, other, new Vector3d(1.2, 0, 0), Vector3d.UnitZ);
+        return b.Build();
+    }
+
+    private static void Motor(RevoluteJoint hinge, double speed, double force)
+    {
+        hinge.MotorEnabled = true;
+        hinge.MotorVelocity = speed;
+        hinge.MotorForceLimit = force;
+        hinge.DriveLimitsAreForces = true;
+    }
+
+    private static void AssertCheap(MultibodySystem m, int steps)
+    {
+        var solver = new RattleSolver(m);
+        for (int i = 0; i < steps; i++)
+        {
+            double work = m.SubstepWork;
+            solver.Step(Dt);
+            Assert.That(m.SubstepWork - work, Is.LessThanOrEqualTo(MostParts * m.Joints.Length), $"step {i}");
+        }
+
+        Assert.That(m.Stops, Is.Zero);
+    }
+}

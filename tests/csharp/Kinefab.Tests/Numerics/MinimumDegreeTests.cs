@@ -35,16 +35,24 @@ internal sealed class MinimumDegreeTests
         Assert.That(found, Is.EqualTo(later));
     }
 
+    [Test]
+    public void Order_Chain_GoesFromBothEnds()
+    {
+        HashSet<int>[] chain = Enumerable.Range(0, 6).Select(i => new HashSet<int>(new[] { i - 1, i + 1 }.Where(k => k is >= 0 and < 6))).ToArray();
+        Assert.That(MinimumDegree.Order([5, 5, 5, 5, 5, 5], chain, new bool[6], out _), Is.EqualTo(new[] { 0, 5, 1, 4, 2, 3 }));
+    }
+
     private static (int[] Order, int[][] Later) ByTheRule(int[] sizes, HashSet<int>[] graph, bool[] waits)
     {
         HashSet<int>[] left = graph.Select(around => new HashSet<int>(around)).ToArray();
         var waiting = new HashSet<int>(Enumerable.Range(0, sizes.Length).Where(i => waits[i]));
         var nodes = new SortedSet<int>(Enumerable.Range(0, sizes.Length));
         var order = new List<int>();
+        var since = new int[sizes.Length];
         var later = new int[sizes.Length][];
         while (nodes.Count > 0)
         {
-            int node = nodes.OrderBy(a => left[a].Sum(b => sizes[b]) + (waiting.Contains(a) ? MinimumDegree.Patience : 0)).ThenBy(a => a).First();
+            int node = nodes.OrderBy(a => left[a].Sum(b => sizes[b]) + (waiting.Contains(a) ? MinimumDegree.Patience : 0)).ThenBy(a => since[a]).ThenBy(a => a).First();
             nodes.Remove(node);
             order.Add(node);
             later[node] = left[node].Order().ToArray();
@@ -53,6 +61,7 @@ internal sealed class MinimumDegreeTests
             {
                 left[a].UnionWith(later[node]);
                 left[a].ExceptWith([a, node]);
+                since[a] = order.Count;
             }
         }
 

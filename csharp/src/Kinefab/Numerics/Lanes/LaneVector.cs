@@ -147,17 +147,27 @@ internal readonly struct LaneQuaternion<V>
         return new LaneQuaternion<V>(SineSeries(s) * u, CosineSeries(s));
     }
 
-    /// <summary>sin(x)/x of x^2.</summary>
+    /// <summary>sin(x)/x of x^2. Terms in pairs, which are there at the same time: one after the other each would wait for the one before it.</summary>
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
-    public static Lane<V> SineSeries(Lane<V> s) =>
-        Lane<V>.Splat(1) - s * (Lane<V>.Splat(1.0 / 6) - s * (Lane<V>.Splat(1.0 / 120) - s * (Lane<V>.Splat(1.0 / 5040)
-            - s * (Lane<V>.Splat(1.0 / 362880) - s * Lane<V>.Splat(1.0 / 39916800)))));
+    public static Lane<V> SineSeries(Lane<V> s)
+    {
+        Lane<V> square = s * s;
+        Lane<V> low = Lane<V>.Splat(1) - s * Lane<V>.Splat(1.0 / 6);
+        Lane<V> middle = Lane<V>.Splat(1.0 / 120) - s * Lane<V>.Splat(1.0 / 5040);
+        Lane<V> high = Lane<V>.Splat(1.0 / 362880) - s * Lane<V>.Splat(1.0 / 39916800);
+        return low + square * (middle + square * high);
+    }
 
-    /// <summary>cos(x) of x^2.</summary>
+    /// <summary>cos(x) of x^2, likewise.</summary>
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
-    public static Lane<V> CosineSeries(Lane<V> s) =>
-        Lane<V>.Splat(1) - s * (Lane<V>.Splat(1.0 / 2) - s * (Lane<V>.Splat(1.0 / 24) - s * (Lane<V>.Splat(1.0 / 720)
-            - s * (Lane<V>.Splat(1.0 / 40320) - s * (Lane<V>.Splat(1.0 / 3628800) - s * Lane<V>.Splat(1.0 / 479001600))))));
+    public static Lane<V> CosineSeries(Lane<V> s)
+    {
+        Lane<V> square = s * s;
+        Lane<V> low = Lane<V>.Splat(1) - s * Lane<V>.Splat(1.0 / 2);
+        Lane<V> middle = Lane<V>.Splat(1.0 / 24) - s * Lane<V>.Splat(1.0 / 720);
+        Lane<V> high = Lane<V>.Splat(1.0 / 40320) - s * Lane<V>.Splat(1.0 / 3628800);
+        return low + square * (middle + square * (high + square * Lane<V>.Splat(1.0 / 479001600)));
+    }
 
     /// <summary>
     /// The vector by which it turns, for a turn by up to 1 rad: two half turns' quotients shorten it to a quarter, whose

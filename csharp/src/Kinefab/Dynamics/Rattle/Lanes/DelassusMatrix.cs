@@ -88,11 +88,7 @@ internal static class DelassusMatrix<V>
             {
                 if (block.Bodies[side] < batch.Shape.MovingBodies)
                 {
-                    Responses(batch, n, block, side);
-                    if (!batch.Shape.IsHub(block.Bodies[side]))
-                    {
-                        AddDiagonal(batch, n, block, side);
-                    }
+                    AddSide(batch, n, block, side);
                 }
             }
 
@@ -239,59 +235,90 @@ internal static class DelassusMatrix<V>
         return new LaneVector<V>(along == RowClass.UnitX ? one : zero, along == RowClass.UnitY ? one : zero, along == RowClass.UnitZ ? one : zero);
     }
 
-    private static void Responses(LaneRecords<V> batch, int n, RowBlock block, int side)
+    // The responses of one body to the rows of a block, and what they add to the block's own cells; that of a hub does not.
+    private static void AddSide(LaneRecords<V> batch, int n, RowBlock block, int side)
     {
         int w = Lane<V>.Width;
-        int inverse = LaneRecords<V>.Body(block.Bodies[side], BodyLanes.WorldInverse);
+        int body = block.Bodies[side];
+        int inverse = LaneRecords<V>.Body(body, BodyLanes.WorldInverse);
         int stride = 3 * block.Bodies.Length * w;
-        int o = batch.Row(n, 0, side);
-        int i = 0;
-        if (block.IsPointJoint)
-        {
-            PointResponses(batch, inverse, o);
-            i = 3;
-            o += 3 * stride;
-        }
-
-        for (; i < block.Rows; i++, o += stride)
-        {
-            LaneVector<V>.Transform(batch.Bodies, inverse, 0, LaneVector<V>.Load(batch.Angular, o)).Store(batch.Work.Response, o);
-        }
-    }
-
-    // I^-1 (r x e) for e = x, y, z, by the columns of I^-1.
-    [MethodImpl(MethodImplOptions.NoInlining)]
-    private static void PointResponses(LaneRecords<V> batch, int inverse, int o)
-    {
-        double[] a = batch.Bodies;
-        double[] responses = batch.Work.Response;
-        LaneVector<V> r = BilateralRows<V>.BuiltLever(batch.Angular, o);
-        Lane<V> xy = Lane<V>.Load(a, inverse, 3), xz = Lane<V>.Load(a, inverse, 4), yz = Lane<V>.Load(a, inverse, 5);
-        var x = new LaneVector<V>(Lane<V>.Load(a, inverse), xy, xz);
-        var y = new LaneVector<V>(xy, Lane<V>.Load(a, inverse, 1), yz);
-        var z = new LaneVector<V>(xz, yz, Lane<V>.Load(a, inverse, 2));
-        (r.Z * y - r.Y * z).Store(responses, o);
-        (r.X * z - r.Z * x).Store(responses, o, 6);
-        (r.Y * x - r.X * y).Store(responses, o, 12);
-    }
-
-    private static void AddDiagonal(LaneRecords<V> batch, int n, RowBlock block, int side)
-    {
         int first = batch.Row(n, 0, side);
-        int cell = batch.Shape.Pattern.Diagonal(n) * Lane<V>.Width;
-        if (block.IsPointJoint)
+        int cell = batch.Shape.Pattern.Diagonal(n) * w;
+        bool isHub = batch.Shape.IsHub(body);
+        if (block.IsPointJoint && !isHub)
         {
-            AddPointRotations(batch, first, block, first, block, cell);
-        }
-        else
-        {
-            for (int i = 0; i < block.Rows; i++)
+            AddAnchor(batch, body, first, cell, block.Rows * w);
+            for (int i = 3; i < block.Rows; i++)
             {
-                AddRotations(batch, first, i, block, first, i + 1, block, cell + i * block.Rows * Lane<V>.Width);
+                AddTurn(batch, body, first, first + i * stride, cell + i * block.Rows * w);
+            }
+
+            return;
+        }
+
+        for (int i = 0; i < block.Rows; i++)
+        {
+            int o = first + i * stride;
+            LaneVector<V>.Transform(batch.Bodies, inverse, 0, LaneVector<V>.Load(batch.Angular, o)).Store(batch.Work.Response, o);
+            if (!isHub)
+            {
+                AddRotations(batch, first, i, block, first, i + 1, block, cell + i * block.Rows * w);
             }
         }
 
-        AddInverseMasses(batch, block.Bodies[side], block, side, first, block, side, first, cell, true);
+        if (!isHub)
+        {
+            AddInverseMasses(batch, body, block, side, first, block, side, first, cell, true);
+        }
+    }
+
+    // The same of the three rows of an anchor, r x e for e = x, y, z: their responses are I^-1 (r x e), by the columns of I^-1, and the products of a
+    // response q with them are q x r. The factor does not read what stands above the triangle.
+    [MethodImpl(MethodImplOptions.NoInlining)]
+    private static void AddAnchor(LaneRecords<V> batch, int body, int o, int cell, int line)
+    {
+        double[] a = batch.Bodies;
+        double[] matrix = batch.Matrix;
+        double[] responses = batch.Work.Response;
+        int at = LaneRecords<V>.Body(body, 0);
+        LaneVector<V> r = BilateralRows<V>.BuiltLever(batch.Angular, o);
+        Lane<V> mass = Lane<V>.Load(a, at, BodyLanes.InverseMass);
+        Lane<V> xy = Lane<V>.Load(a, at, BodyLanes.WorldInverse + 3), xz = Lane<V>.Load(a, at, BodyLanes.WorldInverse + 4), yz = Lane<V>.Load(a, at, BodyLanes.WorldInverse + 5);
+        var x = new LaneVector<V>(Lane<V>.Load(a, at, BodyLanes.WorldInverse), xy, xz);
+        var y = new LaneVector<V>(xy, Lane<V>.Load(a, at, BodyLanes.WorldInverse + 1), yz);
+        var z = new LaneVector<V>(xz, yz, Lane<V>.Load(a, at, BodyLanes.WorldInverse + 2));
+        LaneVector<V> q = r.Z * y - r.Y * z;
+        q.Store(responses, o);
+        (Lane<V>.Load(matrix, cell) + (q.Y * r.Z - q.Z * r.Y) + mass).Store(matrix, cell);
+        cell += line;
+        q = r.X * z - r.Z * x;
+        q.Store(responses, o, 6);
+        (Lane<V>.Load(matrix, cell) + (q.Y * r.Z - q.Z * r.Y)).Store(matrix, cell);
+        (Lane<V>.Load(matrix, cell, 1) + (q.Z * r.X - q.X * r.Z) + mass).Store(matrix, cell, 1);
+        cell += line;
+        q = r.Y * x - r.X * y;
+        q.Store(responses, o, 12);
+        LaneVector<V> product = LaneVector<V>.Cross(q, r);
+        (Lane<V>.Load(matrix, cell) + product.X).Store(matrix, cell);
+        (Lane<V>.Load(matrix, cell, 1) + product.Y).Store(matrix, cell, 1);
+        (Lane<V>.Load(matrix, cell, 2) + product.Z + mass).Store(matrix, cell, 2);
+    }
+
+    // And of one of its turns, which stand behind them.
+    [MethodImpl(MethodImplOptions.NoInlining)]
+    private static void AddTurn(LaneRecords<V> batch, int body, int o, int turn, int cell)
+    {
+        double[] rows = batch.Angular;
+        double[] matrix = batch.Matrix;
+        int w = Lane<V>.Width;
+        LaneVector<V> q = LaneVector<V>.Transform(batch.Bodies, LaneRecords<V>.Body(body, 0), BodyLanes.WorldInverse, LaneVector<V>.Load(rows, turn));
+        q.Store(batch.Work.Response, turn);
+        (LaneVector<V>.Load(matrix, cell) + LaneVector<V>.Cross(q, BilateralRows<V>.BuiltLever(rows, o))).Store(matrix, cell);
+        int to = cell + 3 * w;
+        for (int other = o + 18 * w; other <= turn; other += 6 * w, to += w)
+        {
+            (Lane<V>.Load(matrix, to) + LaneVector<V>.Dot(q, LaneVector<V>.Load(rows, other))).Store(matrix, to);
+        }
     }
 
     private static void AddLink(LaneRecords<V> batch, in Island.Link link)
@@ -331,9 +358,7 @@ internal static class DelassusMatrix<V>
         }
     }
 
-    // The same for all rows of the first block where the second is an anchor: the products of q with r x e for e = x, y, z are
-    // q x r; the two turns of a hinge stay in registers. Of a block with itself the factor does not read what stands above the
-    // triangle.
+    // The same for all rows of the first block where the second is an anchor; the two turns of a hinge stay in registers.
     [MethodImpl(MethodImplOptions.NoInlining)]
     private static void AddPointRotations(LaneRecords<V> batch, int firstI, RowBlock blockI, int firstJ, RowBlock blockJ, int cell)
     {

@@ -22,6 +22,21 @@ public class LoadBenchmark
     /// <summary>Size of the scene's text, bytes.</summary>
     internal static int Length => GeneratedScene.Write(GameObjects, out _).Length;
 
+    /// <summary>What loading and validating it from memory allocates, and what of that the scene's model holds on to, bytes.</summary>
+    internal static (long Allocated, long Kept) MeasureMemory()
+    {
+        byte[] text = GeneratedScene.Write(GameObjects, out byte[] buffer);
+        Validate(SceneFile.Parse(text, _ => buffer));
+        long before = GC.GetTotalMemory(forceFullCollection: true);
+        long allocated = GC.GetAllocatedBytesForCurrentThread();
+        SceneValidation validation = Validate(SceneFile.Parse(text, _ => buffer));
+        allocated = GC.GetAllocatedBytesForCurrentThread() - allocated;
+        long kept = GC.GetTotalMemory(forceFullCollection: true) - before;
+        GC.KeepAlive(validation);
+        GC.KeepAlive(text);
+        return (allocated, kept);
+    }
+
     /// <summary>Writes the scene.</summary>
     [GlobalSetup]
     public void Write()

@@ -27,13 +27,13 @@ internal static class PeerBenchmark
         foreach (int width in new[] { 1, 4, 8 })
             many.Add(($"Kinefab, exact, {width} lanes", scene => new KinefabPeer(new RattleSolver(scene, width))));
         many.AddRange(PeerList.All());
-        Scene("fourbar100", () => SolverScenes.FourBars(100), many, PeerList.Reference, 100 * 1.7 * 9.81);
-        Scene("dpend1000", () => SolverScenes.DoublePendulums(1000), many, PeerList.Reference, 1000 * 9.81 * 2);
+        Scene("fourbar100", () => SolverScenes.FourBars(100), many, [PeerList.Reference, PeerList.Box3D], 100 * 1.7 * 9.81);
+        Scene("dpend1000", () => SolverScenes.DoublePendulums(1000), many, [PeerList.Reference, PeerList.Box3D], 1000 * 9.81 * 2);
 
         // Alone: no other island shares its lanes. A step of one is so short that the clock would count.
         (string, Func<MultibodySystem, IPeer>)[] alone = [Unity, ("Kinefab, exact", scene => new KinefabPeer(new RattleSolver(scene)))];
-        Scene("slidercrank", SolverScenes.SliderCrank, [.. alone, .. PeerList.All().Where(p => p.Name == PeerList.Ode)], PeerList.Ode, null, 20);
-        Scene("chain64", () => SolverScenes.Chain(64), [.. alone, .. PeerList.All()], PeerList.FineBepu, 64 * 9.81 * 6.4);
+        Scene("slidercrank", SolverScenes.SliderCrank, [.. alone, .. PeerList.All().Where(p => p.Name == PeerList.Ode)], [PeerList.Ode], null, 20);
+        Scene("chain64", () => SolverScenes.Chain(64), [.. alone, .. PeerList.All()], [PeerList.FineBepu], 64 * 9.81 * 6.4);
         Console.WriteLine($"Processor time of the thread, every step's least of {Runs} runs or more in which the engines took turns; spread: the slowest of the last {Runs} runs over the fastest. {Machine.Description}.");
     }
 
@@ -42,11 +42,11 @@ internal static class PeerBenchmark
     /// <param name="name">In the table.</param>
     /// <param name="make">The scene, anew for every run.</param>
     /// <param name="peers">Who runs it.</param>
-    /// <param name="reference">The one against which the others' times are divided.</param>
+    /// <param name="references">Those against which the others' times are divided.</param>
     /// <param name="energyScale">What 100 % of energy is, J; null where a motor does work and the energy says nothing.</param>
     /// <param name="stride">Steps that are timed as one.</param>
     private static void Scene(
-        string name, Func<MultibodySystem> make, IEnumerable<(string Name, Func<MultibodySystem, IPeer> Make)> peers, string reference, double? energyScale, int stride = 1)
+        string name, Func<MultibodySystem> make, IEnumerable<(string Name, Func<MultibodySystem, IPeer> Make)> peers, string[] references, double? energyScale, int stride = 1)
     {
         List<Contender> contenders = peers.Select(peer => new Contender(peer.Name, peer.Make, stride)).ToList();
         foreach (Contender contender in contenders)
@@ -59,15 +59,15 @@ internal static class PeerBenchmark
         }
 
         int joints = make().Joints.Length;
-        double? least = contenders.Find(c => c.Name == reference)?.Least;
-        Console.WriteLine($"| {name} | ns/joint-step | of {reference} | spread | drift m | energy after 10 s |");
-        Console.WriteLine("|---|---|---|---|---|---|");
+        Console.WriteLine($"| {name} | ns/joint-step | {string.Concat(references.Select(r => $"of {r} | "))}spread | drift m | energy after 10 s |");
+        Console.WriteLine($"|---|---|{string.Concat(references.Select(_ => "---|"))}---|---|---|");
         foreach (Contender c in contenders)
         {
-            string share = least is { } of ? (c.Least / of).ToString("F2", CultureInfo.InvariantCulture) : "not there";
+            string shares = string.Concat(references.Select(
+                r => contenders.Find(other => other.Name == r) is { } of ? string.Create(CultureInfo.InvariantCulture, $"{c.Least / of.Least:F2} | ") : "not there | "));
             Console.WriteLine(string.Create(
                 CultureInfo.InvariantCulture,
-                $"| {c.Name} | {c.Least * 1000 / Steps / joints:F0} | {share} | {c.Spread * 100:F0} % | {c.Drift:E1} | {(energyScale is null ? "driven" : $"{c.Energy * 100:F2} %")} |"));
+                $"| {c.Name} | {c.Least * 1000 / Steps / joints:F0} | {shares}{c.Spread * 100:F0} % | {c.Drift:E1} | {(energyScale is null ? "driven" : $"{c.Energy * 100:F2} %")} |"));
         }
 
         Console.WriteLine();

@@ -32,10 +32,12 @@ internal static class StartBenchmark
                 foreach ((string name, string program) in programs)
                     if (Time(program) is var time && i > 0)
                         times[name].Add(time);
-            Console.WriteLine("| validate of the lever, a process | ms, least | ms, median |");
-            Console.WriteLine("|---|---|---|");
+            Console.WriteLine("| validate of the lever, a process | ms, least | ms, median | of the first, least | spread |");
+            Console.WriteLine("|---|---|---|---|---|");
+            double first = times[programs[0].Name].Min();
             foreach ((string name, List<double> of) in times)
-                Console.WriteLine(string.Create(CultureInfo.InvariantCulture, $"| {name} | {of.Min():F0} | {of.Order().ElementAt(Runs / 2):F0} |"));
+                Console.WriteLine(string.Create(CultureInfo.InvariantCulture, $"| {name} | {of.Min():F0} | {of.Order().ElementAt(Runs / 2):F0} | {of.Min() / first:F2} | {(of.Max() / of.Min() - 1) * 100:F0} % |"));
+            Console.WriteLine($"\n{Runs} runs by turns, wall time; spread: the slowest over the fastest. {Machine.Description}.");
         }
         finally
         {

@@ -43,11 +43,13 @@ internal static class Tables
         // One call takes a third of a second: enough for a measurement, too long for many.
         Summary summary = Run<LoadBenchmark>(Job.Dry.WithWarmupCount(10).WithIterationCount(15));
         double megabytes = LoadBenchmark.Length / 1e6;
+        (long allocated, long kept) = LoadBenchmark.MeasureMemory();
 
         // The least time is what the work takes; the median has the runtime's compiler and collector in it, and other programs.
         return Table(summary)
             + string.Create(CultureInfo.InvariantCulture, $"\n{megabytes:F1} MB, and how fast against the token loop, in the least time: {Rates(result => result.Min)}.\n")
-            + $"At the median: {Rates(result => result.Median)}.\n";
+            + $"At the median: {Rates(result => result.Median)}.\n"
+            + string.Create(CultureInfo.InvariantCulture, $"Allocated from memory: {allocated / 1e6:F1} MB, {(double)allocated / kept:F2} of the {kept / 1e6:F1} MB that the document's model holds.\n");
 
         string Rates(Func<Statistics, double> time) => string.Join(", ", summary.Reports.Select(r => string.Create(
             CultureInfo.InvariantCulture,

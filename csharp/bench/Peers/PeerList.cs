@@ -12,8 +12,10 @@ namespace Kinefab.Bench.Peers;
 /// </summary>
 internal static class PeerList
 {
-    /// <summary>The peer against which the others' times are divided.</summary>
+    /// <summary>The peers against which the others' times are divided.</summary>
     public const string Reference = "Jitter2, default";
+
+    public const string Box3D = "Box3D, 4 substeps (default)";
 
     /// <summary>Those against which scenes of a single mechanism are held.</summary>
     public const string Ode = "ODE, WorldStep";
@@ -33,7 +35,7 @@ internal static class PeerList
 #endif
         if (Library("box3d") is { } box3d)
         {
-            yield return ("Box3D, 4 substeps (default)", scene => new NativePeer(box3d, scene, 4, 0));
+            yield return (Box3D, scene => new NativePeer(box3d, scene, 4, 0));
             yield return ("Box3D, 32 substeps, 480 Hz", scene => new NativePeer(box3d, scene, 32, 480));
         }
 

@@ -17,7 +17,15 @@ internal abstract class IslandGroup
     private double _substepWork;
 
     /// <summary>One step of all islands.</summary>
-    public abstract void Step(double dt, double tolerance);
+    /// <param name="dt">Step, s.</param>
+    /// <param name="tolerance">Largest C, metres or radians.</param>
+    /// <param name="areReactionsAwaited">Whether a joint could break, so that what they did is to be known at once.</param>
+    public abstract void Step(double dt, double tolerance, bool areReactionsAwaited);
+
+    /// <summary>What joints did in the last step, where the step has not written it.</summary>
+    public virtual void WriteReactions(JointReaction[] reactions)
+    {
+    }
 
     /// <summary>What the next step takes from those before it.</summary>
     public abstract void Exchange(StateTape tape);

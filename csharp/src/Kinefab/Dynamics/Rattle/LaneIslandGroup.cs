@@ -42,7 +42,7 @@ internal sealed class LaneIslandGroup<V> : IslandGroup
     }
 
     /// <inheritdoc/>
-    public override void Step(double dt, double tolerance)
+    public override void Step(double dt, double tolerance, bool areReactionsAwaited)
     {
         foreach (AloneMemory memory in _memories)
         {
@@ -57,7 +57,7 @@ internal sealed class LaneIslandGroup<V> : IslandGroup
             LoadResting(free, i);
             free.Begin(dt, tolerance);
             free.Drift(dt, tolerance);
-            Rest(i, dt, tolerance);
+            Rest(i, dt, tolerance, areReactionsAwaited);
             for (int lane = 0; lane < free.Occupied; lane++)
             {
                 if (free.IsAlone(lane) && !free.IsTakenOver(lane))
@@ -67,6 +67,7 @@ internal sealed class LaneIslandGroup<V> : IslandGroup
             }
 
             free.Project(dt, tolerance);
+            EnterEnergies(free, i);
             for (int lane = 0; lane < free.Occupied; lane++)
             {
                 if (free.HasLeftLate(lane))
@@ -75,7 +76,7 @@ internal sealed class LaneIslandGroup<V> : IslandGroup
                 }
             }
 
-            free.End(dt);
+            free.End(dt, areReactionsAwaited);
             for (int lane = 0; lane < free.Occupied; lane++)
             {
                 if (free.IsActive(lane))
@@ -84,6 +85,13 @@ internal sealed class LaneIslandGroup<V> : IslandGroup
                 }
             }
         }
+    }
+
+    /// <inheritdoc/>
+    public override void WriteReactions(JointReaction[] reactions)
+    {
+        Array.ForEach(_free, step => step.WriteReactions(reactions));
+        Array.ForEach(_resting, step => step.WriteReactions(reactions));
     }
 
     /// <inheritdoc/>
@@ -137,7 +145,7 @@ internal sealed class LaneIslandGroup<V> : IslandGroup
     }
 
     // The step of the lanes that rest on limits; those that cannot do it so are left alone.
-    private void Rest(int index, double dt, double tolerance)
+    private void Rest(int index, double dt, double tolerance, bool areReactionsAwaited)
     {
         if (Array.IndexOf(_rests, true) < 0)
         {
@@ -149,7 +157,8 @@ internal sealed class LaneIslandGroup<V> : IslandGroup
         resting.Begin(dt, tolerance);
         resting.Drift(dt, tolerance);
         resting.Project(dt, tolerance);
-        resting.End(dt);
+        EnterEnergies(resting, index);
+        resting.End(dt, areReactionsAwaited);
         bool areAll = resting.AreAllActive;
         if (areAll)
         {
@@ -166,6 +175,17 @@ internal sealed class LaneIslandGroup<V> : IslandGroup
                 }
 
                 Forget(index, lane, false);
+            }
+        }
+    }
+
+    private void EnterEnergies(LaneStep<V> step, int index)
+    {
+        for (int lane = 0; lane < step.Occupied; lane++)
+        {
+            if (step.IsActive(lane))
+            {
+                step.Enter(lane, ref History(index, lane).Energy);
             }
         }
     }
@@ -204,7 +224,7 @@ internal sealed class LaneIslandGroup<V> : IslandGroup
         _spare.Work.Active[0] = 1;
         LaneTransfer<ScalarLane>.EndStep(_spare);
         LaneTransfer<ScalarLane>.Scatter(_spare, 1, _mechanism);
-        Reactions<ScalarLane>.Report(_spare, 1, _mechanism, dt);
+        Reactions<ScalarLane>.Report(_spare, 1, _mechanism.Reactions, dt, _spare.Work.TotalImpulses);
         free.TakeOver(lane, _spare, 0);
     }
 

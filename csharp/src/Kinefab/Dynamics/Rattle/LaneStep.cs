@@ -16,6 +16,11 @@ internal sealed class LaneStep<V>
 
     private readonly bool[] _isTakenOver = new bool[Lane<V>.Width];
 
+    // Lanes of which the last step has not written what their joints did, its length, and its impulses.
+    private readonly bool[] _isUnread = new bool[Lane<V>.Width];
+    private readonly double[] _unread;
+    private double _unreadStep;
+
     // Lanes of which the rows are those of the pose that their last step has left.
     private readonly bool[] _isBuilt = new bool[Lane<V>.Width];
 
@@ -28,6 +33,7 @@ internal sealed class LaneStep<V>
         _mechanism = mechanism;
         Occupied = islands.Length;
         Batch = new LaneBatch<V>(shape, workspace);
+        _unread = new double[workspace.TotalImpulses.Length];
         for (int lane = 0; lane < Lane<V>.Width; lane++)
         {
             // Lanes without an island of their own hold a copy of the first, which is never active.
@@ -69,6 +75,7 @@ internal sealed class LaneStep<V>
     {
         Array.Fill(_isAlone, true);
         Array.Clear(_isBuilt, 0, _isBuilt.Length);
+        Array.Clear(_isUnread, 0, _isUnread.Length);
     }
 
     /// <summary>The step's start from the world. Lanes that stand open, or move as their joints forbid, are left to the step controller.</summary>
@@ -79,6 +86,7 @@ internal sealed class LaneStep<V>
         for (int lane = 0; lane < Lane<V>.Width; lane++)
         {
             _isAlone[lane] = lane >= Occupied;
+            _isUnread[lane] = false;
             if (lane < Occupied && IsMoved(lane))
             {
                 isMoved = true;
@@ -104,6 +112,7 @@ internal sealed class LaneStep<V>
         for (int lane = 0; lane < Lane<V>.Width; lane++)
         {
             _isAlone[lane] = !lanes[lane];
+            _isUnread[lane] = false;
             Batch.Work.Moved[lane] = 0;
             LaneTransfer<V>.CopyGuess(from.Batch, lane, Batch, lane);
         }
@@ -141,6 +150,7 @@ internal sealed class LaneStep<V>
             Rebuild();
         }
 
+        LaneEnergy<V>.Kinetic(Batch).Store(Batch.Work.StartKinetic, 0);
         Batch.Axes?.Clear();
         for (int lane = 0; lane < Occupied && Batch.Axes != null; lane++)
         {
@@ -194,10 +204,44 @@ internal sealed class LaneStep<V>
             _isAlone[lane] |= _hasLeftLate[lane];
             _isBuilt[lane] = !_isAlone[lane] || (_isTakenOver[lane] && !_hasLeftLate[lane]);
         }
+
+        RattleStep<V>.Accumulate(Batch);
+        MeasureEnergy(dt);
+    }
+
+    /// <summary>Enters the step of a lane, which has taken part in it to its end, into the account of its energy; where that does not allow it, the lane leaves.</summary>
+    public void Enter(int lane, ref EnergyLedger ledger)
+    {
+        if (!LaneEnergy<V>.IsKnown(Batch, lane))
+        {
+            return;
+        }
+
+        double gain = Batch.Work.Gain[lane];
+        double moving = Batch.Work.Moving[lane];
+        bool mayLose = Batch.Shape.HasKinematic || (Batch.Axes != null && Batch.Axes.HasRow(lane));
+        if (ledger.Allows(gain, moving, mayLose))
+        {
+            // Where J v is not 0, no factor on all speeds may change them.
+            if (!Batch.Shape.HasKinematic && (Batch.Axes == null || !Batch.Axes.HasMotor(lane)))
+            {
+                double kinetic = Batch.Work.Kinetic[lane];
+                LaneEnergy<V>.Take(Batch, lane, ledger.Enter(gain, moving, kinetic, mayLose), kinetic);
+            }
+
+            return;
+        }
+
+        _isAlone[lane] = true;
+        _isBuilt[lane] = false;
+        _hasLeftLate[lane] = true;
+        _hasFailed[lane] = true;
     }
 
     /// <summary>What the lanes that take part have come to, back to the world.</summary>
-    public void End(double dt)
+    /// <param name="dt">Step, s.</param>
+    /// <param name="areReactionsAwaited">Whether what the joints did is to be written at once, or when it is asked for.</param>
+    public void End(double dt, bool areReactionsAwaited)
     {
         if (!Activate())
         {
@@ -212,12 +256,21 @@ internal sealed class LaneStep<V>
 
         RattleStep<V>.Accept(Batch);
         GeometricStiffness<V>.Estimate(Batch, Batch.VelocityImpulses, dt / 2);
-        RattleStep<V>.Accumulate(Batch);
         LaneTransfer<V>.EndStep(Batch);
         LaneTransfer<V>.Scatter(Batch, Occupied, _mechanism);
-        Reactions<V>.Report(Batch, Occupied, _mechanism, dt);
+        if (areReactionsAwaited)
+        {
+            Reactions<V>.Report(Batch, Occupied, _mechanism.Reactions, dt, Batch.Work.TotalImpulses);
+        }
+        else
+        {
+            Array.Copy(Batch.Work.TotalImpulses, _unread, _unread.Length);
+            _unreadStep = dt;
+        }
+
         for (int lane = 0; lane < Occupied; lane++)
         {
+            _isUnread[lane] = !_isAlone[lane] && !areReactionsAwaited;
             if (!_isAlone[lane])
             {
                 CoupledTurns<V>.Finish(Batch, lane);
@@ -225,6 +278,17 @@ internal sealed class LaneStep<V>
                 Batch.Axes?.Finish(lane);
             }
         }
+    }
+
+    /// <summary>What the joints did in the last step, where it has not written it.</summary>
+    public void WriteReactions(JointReaction[] reactions)
+    {
+        for (int lane = 0; lane < Occupied; lane++)
+        {
+            Batch.Work.Active[lane] = _isUnread[lane] ? 1 : 0;
+        }
+
+        Reactions<V>.Report(Batch, Occupied, reactions, _unreadStep, _unread);
     }
 
     /// <summary>A lane's step was made elsewhere.</summary>
@@ -248,6 +312,18 @@ internal sealed class LaneStep<V>
         Batch.Exchange(tape);
         Batch.Axes?.Exchange(tape);
         tape.Array(_isBuilt);
+    }
+
+    private void MeasureEnergy(double dt)
+    {
+        Workspace<V> work = Batch.Work;
+        Lane<V> kinetic = LaneEnergy<V>.Kinetic(Batch);
+        Lane<V> given = LaneEnergy<V>.Work(Batch);
+        given = Batch.Axes == null ? given : given + Batch.Axes.Work(dt);
+        given = Batch.Shape.HasKinematic ? given + LaneEnergy<V>.KinematicWorkBound(Batch) : given;
+        kinetic.Store(work.Kinetic, 0);
+        Lane<V>.Max(kinetic, LaneEnergy<V>.FirstWork(Batch, dt)).Store(work.Moving, 0);
+        (kinetic - Lane<V>.Load(work.StartKinetic, 0) - given).Store(work.Gain, 0);
     }
 
     private void Rebuild()

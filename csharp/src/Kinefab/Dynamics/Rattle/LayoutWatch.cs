@@ -19,14 +19,18 @@ internal readonly struct LayoutWatch
     }
 
     /// <summary>Whether a joint broke or changed since.</summary>
-    public bool IsStale()
+    /// <param name="canBreak">Whether one of them could break, where none has changed.</param>
+    public bool IsStale(out bool canBreak)
     {
+        canBreak = false;
         for (int i = 0; i < _joints.Length; i++)
         {
             if (_joints[i].IsBroken || _joints[i].Layout().Signature != _signatures[i])
             {
                 return true;
             }
+
+            canBreak |= _joints[i].CanBreak;
         }
 
         return false;

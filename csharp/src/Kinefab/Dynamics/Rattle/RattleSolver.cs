@@ -25,9 +25,11 @@ internal sealed class RattleSolver : ISolver, IStepParts
     private readonly int _maxWidth;
     private readonly List<IslandGroup> _groups = new();
     private readonly Dictionary<int, LoopConsistency> _fits = new();
+    private readonly Action<JointReaction[]> _writeReactions;
     private LayoutWatch _watch;
     private double _dt;
     private double _tolerance;
+    private bool _areReactionsAwaited;
 
     /// <summary>A solver for the mechanism as it stands.</summary>
     /// <param name="mechanism">Bodies and joints.</param>
@@ -45,6 +47,7 @@ internal sealed class RattleSolver : ISolver, IStepParts
     {
         _mechanism = mechanism;
         _maxWidth = maxWidth;
+        _writeReactions = WriteReactions;
         foreach (JointModel joint in mechanism.Joints)
         {
             joint.LimitsFromAfar = true;
@@ -65,9 +68,11 @@ internal sealed class RattleSolver : ISolver, IStepParts
     /// <inheritdoc/>
     public void Step(double dt)
     {
-        if (IsStale)
+        _mechanism.UnreadReactions = null;
+        if (IsStale(out bool canBreak))
         {
             Regroup();
+            _watch.IsStale(out canBreak);
         }
 
         _mechanism.Unsolved.Clear();
@@ -76,12 +81,15 @@ internal sealed class RattleSolver : ISolver, IStepParts
         _mechanism.HeldLimits.Clear();
         _mechanism.StalledJoints.Clear();
         _dt = dt;
+        _areReactionsAwaited = canBreak;
         _tolerance = Math.Min(MostGap, Math.Max(LeastGap, GapAcceleration * dt * dt));
         StepThreads.ForEach(this, _groups.Count, _mechanism.Threads);
         foreach (IslandGroup group in _groups)
         {
             group.Report(_mechanism);
         }
+
+        _mechanism.UnreadReactions = canBreak ? null : _writeReactions;
 
         Bodies bodies = _mechanism.Bodies;
         for (int i = 0; i < bodies.Count; i++)
@@ -97,13 +105,13 @@ internal sealed class RattleSolver : ISolver, IStepParts
     }
 
     /// <inheritdoc/>
-    void IStepParts.Do(int part) => _groups[part].Step(_dt, _tolerance);
+    void IStepParts.Do(int part) => _groups[part].Step(_dt, _tolerance, _areReactionsAwaited);
 
     /// <inheritdoc/>
     public void Exchange(StateTape tape)
     {
         // Where the groups are to be made anew by the next step, there is nothing to remember.
-        bool isStale = !tape.IsPlaying && IsStale;
+        bool isStale = !tape.IsPlaying && IsStale(out _);
         tape.Value(ref isStale);
         if (tape.IsPlaying)
         {
@@ -119,7 +127,15 @@ internal sealed class RattleSolver : ISolver, IStepParts
         }
     }
 
-    private bool IsStale => _mechanism.HasChangedBodies || _watch.IsStale();
+    private bool IsStale(out bool canBreak) => _watch.IsStale(out canBreak) | _mechanism.HasChangedBodies;
+
+    private void WriteReactions(JointReaction[] reactions)
+    {
+        foreach (IslandGroup group in _groups)
+        {
+            group.WriteReactions(reactions);
+        }
+    }
 
     private void Regroup()
     {

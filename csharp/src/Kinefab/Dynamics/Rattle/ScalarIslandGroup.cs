@@ -34,7 +34,7 @@ internal sealed class ScalarIslandGroup : IslandGroup
     }
 
     /// <inheritdoc/>
-    public override void Step(double dt, double tolerance)
+    public override void Step(double dt, double tolerance, bool areReactionsAwaited)
     {
         for (int i = 0; i < _islands.Length; i++)
         {
@@ -61,7 +61,7 @@ internal sealed class ScalarIslandGroup : IslandGroup
             LaneTransfer<ScalarLane>.EndStep(batch);
             batch.Work.Active[0] = 1;
             LaneTransfer<ScalarLane>.Scatter(batch, 1, _mechanism);
-            Reactions<ScalarLane>.Report(batch, 1, _mechanism, dt);
+            Reactions<ScalarLane>.Report(batch, 1, _mechanism.Reactions, dt, batch.Work.TotalImpulses);
         }
     }
 

@@ -187,7 +187,7 @@ internal sealed class StepController
         _dampedInStep = 0;
         _hasMoved = false;
         _part.IsEager = hasFailed && _batch.ActiveSet != null;
-        _isAudited = EnergyAudit.IsKnown(_batch);
+        _isAudited = LaneEnergy<ScalarLane>.IsKnown(_batch, 0);
         isMoved |= _batch.ActiveSet != null && _batch.ActiveSet.IsNewlyPassed();
         HasClosed = isMoved && _closure.TryClose(tolerance);
         _forbidden = isMoved && !_batch.Shape.IsInconsistent ? InitialVelocityProjection.Find(_batch, out _forbiddenSpeed) : -1;
@@ -241,6 +241,7 @@ internal sealed class StepController
             halvings += wasEager ? 1 : 0;
         }
 
+        Enter(ref cut.Energy);
         cut.Record(halvings, demand);
         _part.SetLength(dt);
         if (_dampedInStep == 0 || _hasMoved)
@@ -317,6 +318,22 @@ internal sealed class StepController
         }
     }
 
+    private void Enter(ref EnergyLedger ledger)
+    {
+        if (!_isAudited)
+        {
+            return;
+        }
+
+        var end = new EnergyAudit(_batch, _dt, _tolerance);
+        if (end.IsClosed)
+        {
+            LaneEnergy<ScalarLane>.Take(_batch, 0, ledger.Enter(end.GainSince(_energy), end.Moving, end.Kinetic, MayLose), end.Kinetic);
+        }
+    }
+
+    private bool MayLose => _batch.Shape.HasKinematic || _batch.ActiveSet is { HasActed: true };
+
     private static JointModel? JointOf(Island island, int row)
     {
         int n = Array.FindLastIndex(island.Pattern.Rows, first => first <= row);
@@ -348,12 +365,13 @@ internal sealed class StepController
     }
 
     // At the finest even parts a violent motion on which no scalar row acts may lose energy: nothing below these is better. Were it allowed to lose
-    // at any, while a gain is mended, an energy that swings about its value would be let down step by step.
+    // at any, while a gain is mended, an energy that swings about its value would be let down step by step. What is left there of a gain the account takes
+    // from the speeds.
     private bool IsEnergyKept(int halvings, double h)
     {
         // A gain is a part's own to mend, not that of the part after it.
         double share = EarlyShare + (1 - EarlyShare) * (_elapsed + h) / _dt;
-        bool mayLose = _batch.ActiveSet is { HasActed: true } || halvings >= MostEven;
+        bool mayLose = MayLose || halvings >= MostEven;
         return !_isAudited || new EnergyAudit(_batch, _dt, _tolerance).IsKept(_energy, mayLose, share * (mayLose ? MostEnergyGain : MostEnergyChange));
     }
 

@@ -199,7 +199,7 @@ internal sealed class Substep
             _batch.ActiveSet.LocatesEvents = false;
         }
 
-        bool isKnown = EnergyAudit.IsKnown(_batch);
+        bool isKnown = LaneEnergy<ScalarLane>.IsKnown(_batch, 0);
         EnergyAudit before = since ?? (isKnown ? new EnergyAudit(_batch, h, tolerance) : default);
         if (!_projected.TrySolve(h, tolerance))
         {

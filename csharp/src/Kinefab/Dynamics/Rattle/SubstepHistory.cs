@@ -1,11 +1,14 @@
 namespace Kinefab.Dynamics.Rattle;
 
-/// <summary>How often an island's steps are halved, kept from step to step.</summary>
+/// <summary>What is kept of an island from step to step: how often its steps are halved, and its account of energy.</summary>
 internal struct SubstepHistory
 {
     // Steps in which by its demand an eighth as many parts would have done, after which it is cut into half as many.
     private const int CalmSteps = 15;
     private const int Margin = 8;
+
+    /// <summary>The island's energy.</summary>
+    public EnergyLedger Energy;
 
     private int _calm;
 

@@ -2,7 +2,6 @@ using System;
 using System.Collections.Concurrent;
 using System.Collections.Generic;
 using System.Globalization;
-using System.Threading;
 using System.Threading.Tasks;
 using Kinefab.Dynamics;
 using Kinefab.Dynamics.Rattle;
@@ -22,24 +21,22 @@ internal sealed class LimitedSceneTests
     private const double MostPassed = 2e-8;
     private const double MostStopped = 0.01;
 
-    // Of the largest energy so far: in a few scenes, and in any.
-    private const double MostUsualGain = 1e-3;
-    private const double MostGain = 5e-3;
+    // Above what the first step shows, of the largest energy so far.
+    private const double MostGain = 1e-3;
 
     [Test]
     public void Step_ScenesThatRunIntoLimits_StayTrue()
     {
         int count = Setting("KINEFAB_SCENES", 150);
-        int first = Setting("KINEFAB_FIRST_SCENE", 0);
+        int firstSeed = Setting("KINEFAB_FIRST_SCENE", 0);
         var faults = new ConcurrentQueue<string>();
         var stopped = new ConcurrentQueue<int>();
-        int gained = 0;
-        Parallel.For(first, first + count, seed =>
+        Parallel.For(firstSeed, firstSeed + count, seed =>
         {
             var scene = new LimitedScene(seed);
             MultibodySystem m = scene.System;
             var solver = new RattleSolver(m, new List<InconsistentLoop>());
-            double highest = double.PositiveInfinity, lowest = 0, largest = 0, gain = 0;
+            double first = 0, lowest = 0, largest = 0, gain = 0;
             for (int i = 1; i <= Steps; i++)
             {
                 scene.Drive(i * scene.Step);
@@ -52,10 +49,9 @@ internal sealed class LimitedSceneTests
                 }
 
                 double energy = scene.Energy();
-                (lowest, highest) = i == 1 ? (energy, energy) : (Math.Min(lowest, energy), highest);
+                (lowest, first) = i == 1 ? (energy, energy) : (Math.Min(lowest, energy), first);
                 largest = Math.Max(largest, Math.Max(MechanismMeasures.Kinetic(m) + MechanismMeasures.FallEnergy(m, 2 * scene.Step), energy - lowest));
-                gain = scene.IsPassive ? Math.Max(gain, (energy - highest) / largest) : 0;
-                highest = Math.Max(highest, energy);
+                gain = scene.IsPassive ? Math.Max(gain, (energy - first) / largest) : 0;
             }
 
             if (m.Stops > 0 || m.HeldLimits.Count > 0)
@@ -67,17 +63,10 @@ internal sealed class LimitedSceneTests
             {
                 faults.Enqueue($"seed {seed}: energy grew by {gain} of the largest");
             }
-
-            if (gain > MostUsualGain)
-            {
-                Interlocked.Increment(ref gained);
-                TestContext.Progress.WriteLine($"seed {seed}: energy grew by {gain} of the largest");
-            }
         });
-        TestContext.Progress.WriteLine($"{count} scenes: {stopped.Count} stopped ({string.Join(' ', stopped)}), {gained} gained energy");
+        TestContext.Progress.WriteLine($"{count} scenes: {stopped.Count} stopped ({string.Join(' ', stopped)})");
         Assert.That(faults, Is.Empty);
         Assert.That((double)stopped.Count / count, Is.LessThanOrEqualTo(MostStopped));
-        Assert.That((double)gained / count, Is.LessThanOrEqualTo(MostStopped));
     }
 
     /// <summary>Kinematic bodies that move by centimetres hold wild ones: 1.6e7 J came of nothing while nobody audited what such bodies may give.</summary>

@@ -34,7 +34,8 @@ internal sealed class AxisRows<V>
     private const int End = 11;
     private const int EndCosine = 12;
     private const int EndSine = 13;
-    private const int Count = 14;
+    private const int Turn = 14;
+    private const int Count = 15;
 
     // What a lane has as the row.
     private const double None = 0;
@@ -276,6 +277,28 @@ internal sealed class AxisRows<V>
         return isFree;
     }
 
+    /// <summary>Whether a lane has a row in this step.</summary>
+    public bool HasRow(int lane) => HasKind(lane, Motor, Spring);
+
+    /// <summary>Whether a motor turns a lane's hinge in this step.</summary>
+    public bool HasMotor(int lane) => HasKind(lane, Motor, Motor);
+
+    /// <summary>What the drives gave in the step: a spring its impulse along the drift, a motor its own at its speed, J.</summary>
+    public Lane<V> Work(double h)
+    {
+        Lane<V> zero = Lane<V>.Splat(0);
+        Lane<V> sum = zero;
+        for (int k = 0; k < _blocks.Length; k++)
+        {
+            Lane<V> kind = Load(k, Kind);
+            Lane<V> spring = Lane<V>.Splat(-1 / (Share * h)) * Lane<V>.Load(_batch.Work.PositionImpulses, RowOf(k)) * Load(k, Turn);
+            Lane<V> motor = Lane<V>.Load(_batch.Work.TotalImpulses, RowOf(k)) * Load(k, Target);
+            sum += Lane<V>.Select(IsSpring(kind), spring, Lane<V>.Select(IsMotor(kind), motor, zero));
+        }
+
+        return sum;
+    }
+
     /// <summary>Where a step of a lane ends that kept to the lanes.</summary>
     public void Finish(int lane)
     {
@@ -296,10 +319,10 @@ internal sealed class AxisRows<V>
     }
 
     /// <summary>Torque on body 0 of the limit that a lane's hinge rests on, in the whole step, over its axis; 0 without one.</summary>
-    public double LimitImpulse(int block, int lane)
+    public double LimitImpulse(int block, int lane, double[] impulses)
     {
         int k = Array.IndexOf(_blocks, block);
-        return k >= 0 && _numbers[Count * k * Lane<V>.Width + lane] == Limit ? _batch.Work.TotalImpulses[RowOf(k) + lane] : 0;
+        return k >= 0 && _numbers[Count * k * Lane<V>.Width + lane] == Limit ? impulses[RowOf(k) + lane] : 0;
     }
 
     /// <summary>Gives a lane's impulses to the rows of the same hinges of an island that is to step alone.</summary>
@@ -425,6 +448,18 @@ internal sealed class AxisRows<V>
         return true;
     }
 
+    private bool HasKind(int lane, double first, double last)
+    {
+        bool isAny = false;
+        for (int k = 0; k < _blocks.Length; k++)
+        {
+            double kind = _numbers[Count * k * Lane<V>.Width + lane];
+            isAny |= kind >= first && kind <= last;
+        }
+
+        return isAny;
+    }
+
     private Lane<V> Load(int k, int slot) => Lane<V>.Load(_numbers, (Count * k + slot) * Lane<V>.Width);
 
     private static Lane<V> IsSpring(Lane<V> kind) => Lane<V>.Max(kind - Lane<V>.Splat(Limit), Lane<V>.Splat(0));
@@ -482,6 +517,7 @@ internal sealed class AxisRows<V>
         Lane<V> c0 = Load(k, StartCosine), s0 = Load(k, StartSine), c1 = Load(k, Cosine), s1 = Load(k, Sine);
         Lane<V> two = Lane<V>.Splat(2);
         Lane<V> turn = two * LaneTrigonometry<V>.Atan((s1 * c0 - c1 * s0) / (Lane<V>.Splat(1) + (c1 * c0 + s1 * s0)));
+        turn.Store(_numbers, (Count * k + Turn) * Lane<V>.Width);
         Lane<V> rest = Load(k, Compliance) * Lane<V>.Load(_batch.Work.PositionImpulses, row) - Load(k, Target);
         Lane<V>.Select(Load(k, Kind), Lane<V>.Splat(h) * rest - turn, Lane<V>.Splat(0)).Store(_batch.Work.Error, row);
     }

@@ -42,6 +42,10 @@ internal sealed class Workspace<V>
         LastMaxError = new double[w];
         FirstMaxError = new double[w];
         Fastest = new double[w];
+        StartKinetic = new double[w];
+        Kinetic = new double[w];
+        Moving = new double[w];
+        Gain = new double[w];
         Leftover = new double[w];
         Reaction = new double[6 * w];
         Rows = shape.HasAssembledRows ? new ConstraintRow[JointModel.MaxRows] : Array.Empty<ConstraintRow>();
@@ -107,6 +111,16 @@ internal sealed class Workspace<V>
 
     /// <summary>Largest angular speed of each lane's moving bodies at the start of the step, rad/s.</summary>
     public double[] Fastest { get; }
+
+    /// <summary>Kinetic energy of each lane at the start of the step and at its end, J.</summary>
+    public double[] StartKinetic { get; }
+
+    public double[] Kinetic { get; }
+
+    /// <summary>The energy that moves at its end, and what came of nothing in it, as <see cref="EnergyLedger"/> asks for, J.</summary>
+    public double[] Moving { get; }
+
+    public double[] Gain { get; }
 
     /// <summary>What the projection leaves, see <see cref="VelocityProjection{V}"/>.</summary>
     public double[] Leftover { get; }

@@ -9,11 +9,12 @@ internal static class Reactions<V>
     where V : struct, ILane<V>
 {
     /// <summary>Writes the mechanism's reactions of the joints of a batch's islands that are active; marks those that broke.</summary>
-    /// <param name="batch">Built at the end pose, with the step's impulses in Total.</param>
+    /// <param name="batch">Built at the end pose.</param>
     /// <param name="count">Lanes with an island of their own.</param>
-    /// <param name="mechanism">Where to.</param>
+    /// <param name="reactions">Where to.</param>
     /// <param name="dt">Step, s.</param>
-    public static void Report(LaneBatch<V> batch, int count, MultibodySystem mechanism, double dt)
+    /// <param name="impulses">Those of the whole step.</param>
+    public static void Report(LaneBatch<V> batch, int count, JointReaction[] reactions, double dt, double[] impulses)
     {
         for (int n = 0; n < batch.Shape.Blocks.Length; n++)
         {
@@ -23,7 +24,7 @@ internal static class Reactions<V>
                 continue;
             }
 
-            Sum(batch, n, block, 1 / dt);
+            Sum(batch, n, block, 1 / dt, impulses);
             for (int lane = 0; lane < count; lane++)
             {
                 if (batch.Work.Active[lane] == 0)
@@ -40,19 +41,18 @@ internal static class Reactions<V>
                 }
                 else if (batch.Axes != null)
                 {
-                    double impulse = batch.Axes.LimitImpulse(n, lane);
+                    double impulse = batch.Axes.LimitImpulse(n, lane, impulses);
                     torque += impulse == 0 ? Vector3d.Zero : LaneTransfer<V>.ReadVector(batch.Joints, LaneBatch<V>.Joint(n, LaneBatch<V>.WorldFrame(1) + 3) + lane) * (impulse / dt);
                 }
 
                 // The anchors of a slide stand apart: it is the one in actor 1 that counts. Those of other joints meet.
-                JointModel joint = mechanism.Joints[index];
+                JointModel joint = batch.Models[n * Lane<V>.Width + lane]!;
                 if (block.LinearMask != 7)
                 {
-                    Vector3d gap = mechanism.Bodies.PoseOf(joint.Body1).Point(joint.Frame1.Position) - mechanism.Bodies.PoseOf(joint.Body0).Point(joint.Frame0.Position);
-                    torque -= Vector3d.Cross(gap, force);
+                    torque -= Vector3d.Cross(Anchor(batch, n, block, 1, lane) - Anchor(batch, n, block, 0, lane), force);
                 }
 
-                mechanism.Reactions[index] = new JointReaction { Force = force, Torque = torque };
+                reactions[index] = new JointReaction { Force = force, Torque = torque };
                 if (force.LengthSquared > joint.BreakForce * joint.BreakForce || torque.LengthSquared > joint.BreakTorque * joint.BreakTorque)
                 {
                     joint.IsBroken = true;
@@ -61,9 +61,14 @@ internal static class Reactions<V>
         }
     }
 
+    // In the world.
+    private static Vector3d Anchor(LaneBatch<V> batch, int n, RowBlock block, int side, int lane) =>
+        LaneTransfer<V>.ReadVector(batch.Bodies, LaneBatch<V>.Body(block.Bodies[side], BodyLanes.EndX) + lane)
+        + LaneTransfer<V>.ReadVector(batch.Joints, LaneBatch<V>.Joint(n, LaneBatch<V>.WorldFrame(side)) + lane);
+
     // Force and torque about the anchor in actor 0 of the rigid rows, as they act on body 0. An anchor's own rows have no torque there.
     [MethodImpl(MethodImplOptions.NoInlining)]
-    private static void Sum(LaneBatch<V> batch, int n, RowBlock block, double rate)
+    private static void Sum(LaneBatch<V> batch, int n, RowBlock block, double rate, double[] impulses)
     {
         int w = Lane<V>.Width;
         Lane<V> zero = Lane<V>.Splat(0);
@@ -74,13 +79,13 @@ internal static class Reactions<V>
         int i = 0;
         if (block.LinearMask == 7)
         {
-            force = LaneVector<V>.Load(batch.Work.TotalImpulses, row);
+            force = LaneVector<V>.Load(impulses, row);
             i = 3;
         }
 
         for (; i < block.BilateralCount; i++)
         {
-            Lane<V> impulse = Lane<V>.Load(batch.Work.TotalImpulses, row + i * w);
+            Lane<V> impulse = Lane<V>.Load(impulses, row + i * w);
             int o = batch.Row(n, i, 0);
             torque += impulse * LaneVector<V>.Load(batch.Angular, o);
             if (block.Classes[i] == RowClass.General)

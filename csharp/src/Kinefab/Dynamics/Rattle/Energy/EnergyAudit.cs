@@ -12,7 +12,6 @@ internal readonly struct EnergyAudit
     // Tolerances by which a pose may be off that counts as closed: its own, its start's and what the chord leaves of other rows.
     private const double Tolerances = 10;
 
-    private readonly double _kinetic;
     private readonly double _work;
     private readonly double _terms;
 
@@ -35,23 +34,21 @@ internal readonly struct EnergyAudit
         double distance = Tolerances * tolerance;
         double speed = distance / dt;
         _floor = batch.ActiveSet?.LargestStoredEnergy(distance) ?? 0;
-        _kinetic = 0;
         _work = 0;
         _terms = 0;
         _forced = 0;
         _stored = batch.ActiveSet?.StoredEnergy(dt) ?? 0;
         _sprung = batch.ActiveSet?.SpringWork() ?? 0;
         _driven = (batch.ActiveSet?.MotorWorkBound(dt) ?? 0) + KinematicWorkBound(batch);
+        Kinetic = NumberOf(LaneEnergy<ScalarLane>.Kinetic(batch), batch);
+        Moving = Math.Max(Kinetic, NumberOf(LaneEnergy<ScalarLane>.FirstWork(batch, dt), batch));
         double[] a = batch.Bodies;
         for (int body = 0; body < batch.Shape.MovingBodies; body++)
         {
             int o = LaneBatch<ScalarLane>.Body(body, 0);
             double mass = 1 / a[o + BodyLanes.InverseMass];
-            Vector3d v = LaneTransfer<ScalarLane>.ReadVector(a, o + BodyLanes.V);
-            Vector3d turning = Vector3d.Scale(LaneTransfer<ScalarLane>.ReadVector(a, o + BodyLanes.L), Impulses<ScalarLane>.AngularVelocity(batch, body));
             Vector3d acceleration = LaneTransfer<ScalarLane>.ReadVector(a, o + BodyLanes.Acceleration);
             Vector3d work = Vector3d.Scale(mass * acceleration, LaneTransfer<ScalarLane>.ReadVector(a, o + BodyLanes.EndX));
-            _kinetic += (mass * v.LengthSquared + turning.X + turning.Y + turning.Z) / 2;
             _work += work.X + work.Y + work.Z;
             _terms += Math.Abs(work.X) + Math.Abs(work.Y) + Math.Abs(work.Z);
             _forced += mass * acceleration.LengthSquared * dt * dt / 2;
@@ -59,20 +56,21 @@ internal readonly struct EnergyAudit
         }
     }
 
-    /// <summary>Whether nothing does work on an island but its bodies' own constant forces, its scalar rows and kinematic bodies.</summary>
-    public static bool IsKnown(LaneBatch<ScalarLane> batch)
-    {
-        bool isKnown = !batch.Shape.IsInconsistent;
-        for (int body = 0; body < batch.Shape.MovingBodies && isKnown; body++)
-        {
-            int o = LaneBatch<ScalarLane>.Body(body, BodyLanes.Torque);
-            isKnown = batch.Bodies[o] == 0 && batch.Bodies[o + 1] == 0 && batch.Bodies[o + 2] == 0;
-        }
+    /// <summary>J.</summary>
+    public double Kinetic { get; }
 
-        return isKnown;
-    }
+    /// <summary>The same, and at least what forces give in the first steps from rest, J.</summary>
+    public double Moving { get; }
 
-    // Each row's impulse since the start of the step at the speed that the kinematic bodies have along it, which is theirs for the whole step.
+    /// <summary>
+    /// Whether the work since the start of the step is known but for rounding, and J v is 0, so that one factor may change all speeds: not where motors
+    /// or kinematic bodies moved the island, of which there is a bound, nor with springs without a potential, of which there is an estimate.
+    /// </summary>
+    public bool IsClosed => !(_driven > 0) && _sprung == 0;
+
+    /// <summary>Energy that came of nothing since, J.</summary>
+    public double GainSince(in EnergyAudit since) => Change(since) - (_driven - since._driven);
+
     private static double KinematicWorkBound(LaneBatch<ScalarLane> batch)
     {
         if (!batch.Shape.HasKinematic)
@@ -80,41 +78,21 @@ internal readonly struct EnergyAudit
             return 0;
         }
 
-        double[] speeds = batch.Work.Solution;
-        double[] without = batch.Work.LastSolution;
         batch.ActiveSet?.WriteRows(true);
-        Impulses<ScalarLane>.NegativeSpeeds(batch, false);
-        Array.Copy(speeds, without, speeds.Length);
-        Impulses<ScalarLane>.NegativeSpeeds(batch);
+        double bound = NumberOf(LaneEnergy<ScalarLane>.KinematicWorkBound(batch), batch);
         batch.ActiveSet?.WriteRows(false);
-        double sum = 0;
-        for (int i = 0; i < speeds.Length; i++)
-        {
-            sum += Math.Abs((speeds[i] - without[i]) * batch.Work.TotalImpulses[i]);
-        }
+        return bound;
+    }
 
-        return sum;
+    private static double NumberOf(Lane<ScalarLane> lane, LaneBatch<ScalarLane> batch)
+    {
+        lane.Store(batch.Work.Leftover, 0);
+        return batch.Work.Leftover[0];
     }
 
     /// <summary>Slows the bodies down until energy has not grown since by more than drives can have given.</summary>
-    public void Dampen(LaneBatch<ScalarLane> batch, in EnergyAudit since)
-    {
-        double gain = _kinetic + _stored - since._kinetic - since._stored - (_work - since._work) - (_sprung - since._sprung) - (_driven - since._driven);
-        if (!(gain > 0) || !(_kinetic > 0))
-        {
-            return;
-        }
-
-        double share = Math.Sqrt(Math.Max(0, 1 - gain / _kinetic));
-        for (int body = 0; body < batch.Shape.MovingBodies; body++)
-        {
-            int o = LaneBatch<ScalarLane>.Body(body, BodyLanes.V);
-            for (int i = 0; i < 6; i++)
-            {
-                batch.Bodies[o + i] *= share;
-            }
-        }
-    }
+    public void Dampen(LaneBatch<ScalarLane> batch, in EnergyAudit since) =>
+        LaneEnergy<ScalarLane>.Take(batch, 0, Math.Max(0, GainSince(since)), Kinetic);
 
     /// <summary>
     /// Whether energy less work changed since by no more than a share of what moves, and rounding. Where it may be lost, as
@@ -122,11 +100,13 @@ internal readonly struct EnergyAudit
     /// </summary>
     public bool IsKept(in EnergyAudit since, bool mayLose, double share)
     {
-        double sprung = _sprung - since._sprung;
-        double change = _kinetic + _stored - since._kinetic - since._stored - (_work - since._work) - sprung;
+        double change = Change(since);
         double rounding = Rounding * (_terms + since._terms) + _floor;
         return mayLose
-            ? change <= share * (since._kinetic + since._stored + Math.Abs(sprung) + _forced) + _driven + rounding
-            : Math.Abs(change) <= share * (_kinetic + _forced) + rounding;
+            ? change <= share * (since.Kinetic + since._stored + Math.Abs(_sprung - since._sprung) + _forced) + _driven + rounding
+            : Math.Abs(change) <= share * (Kinetic + _forced) + rounding;
     }
+
+    private double Change(in EnergyAudit since) =>
+        Kinetic + _stored - since.Kinetic - since._stored - (_work - since._work) - (_sprung - since._sprung);
 }

@@ -1,0 +1,117 @@
+using System;
+using Kinefab.Dynamics;
+using Kinefab.Dynamics.Rattle;
+using NUnit.Framework;
+
+namespace Kinefab.Tests.Dynamics.Rattle;
+
+/// <summary>An island's account of energy, and what it holds its motion to.</summary>
+internal sealed class EnergyLedgerTests
+{
+    private const double Largest = 1000;
+
+    [TestCase(19, false, true)]
+    [TestCase(21, true, false)]
+    [TestCase(-21, false, false)]
+    [TestCase(-21, true, true)]
+    [TestCase(double.NaN, true, false)]
+    public void Allows_AGain_WithinAShareOfTheLargestEnergy(double gain, bool mayLose, bool isAllowed)
+    {
+        EnergyLedger ledger = default;
+        ledger.Enter(0, Largest, Largest, false);
+        Assert.That(ledger.Allows(gain, 1, mayLose), Is.EqualTo(isAllowed));
+    }
+
+    [TestCase(0.1)]
+    [TestCase(-0.1)]
+    public void Enter_WhatGathers_IsPutRight(double change)
+    {
+        EnergyLedger ledger = default;
+        double energy = 0;
+        for (int i = 0; i < 1000; i++)
+        {
+            energy += change;
+            energy -= ledger.Enter(change, Largest, Largest, false);
+            Assert.That(energy, Is.InRange(-1e-2 * Largest - 1e-9, 5e-4 * Largest + 1e-9));
+        }
+    }
+
+    /// <summary>A symplectic method's energy swings by the square of the step: putting that right would cost it its order.</summary>
+    [Test]
+    public void Enter_WhatSwingsBelowAndComesBack_IsLeftAlone()
+    {
+        EnergyLedger ledger = default;
+        double energy = 0;
+        for (int i = 1; i <= 100; i++)
+        {
+            double next = 4e-3 * Largest * (Math.Cos(i / 4.0) - 1);
+            Assert.That(ledger.Enter(next - energy, Largest, Largest, false), Is.Zero);
+            energy = next;
+        }
+    }
+
+    /// <summary>Else each swing would leave a motion with less than the one before.</summary>
+    [Test]
+    public void Enter_WhatWasTakenAboveIsGivenBackBelow()
+    {
+        EnergyLedger ledger = default;
+        double energy = 0, swing = 0;
+        for (int i = 1; i <= 1000; i++)
+        {
+            double next = 3e-3 * Largest * Math.Sin(i / 5.0);
+            energy += next - swing;
+            energy -= ledger.Enter(next - swing, Largest, Largest, false);
+            swing = next;
+            Assert.That(energy, Is.InRange(-6e-3 * Largest, 5e-4 * Largest + 1e-9), $"step {i}");
+        }
+    }
+
+    [Test]
+    public void Enter_WhereLittleMoves_TakesTheRestLater()
+    {
+        EnergyLedger ledger = default;
+        double taken = ledger.Enter(2, Largest, 1, false);
+        Assert.That(taken, Is.EqualTo(0.5));
+        Assert.That(taken + ledger.Enter(0, Largest, Largest, false), Is.EqualTo(1.5));
+    }
+
+    /// <summary>What a limit took is neither given back nor room for a gain.</summary>
+    [Test]
+    public void Enter_AfterABlow_LeavesNoRoom()
+    {
+        EnergyLedger ledger = default;
+        ledger.Enter(-500, Largest, Largest, true);
+        double energy = 0, highest = 0;
+        for (int i = 0; i < 100; i++)
+        {
+            energy += 0.1;
+            energy -= ledger.Enter(0.1, Largest, Largest, false);
+            highest = Math.Max(highest, energy);
+        }
+
+        Assert.That(highest, Is.LessThanOrEqualTo(1e-3 * Largest));
+        for (int i = 0; i < 4; i++)
+        {
+            Assert.That(ledger.Enter(-0.1, Largest, Largest, false), Is.GreaterThanOrEqualTo(0));
+        }
+    }
+
+    /// <summary>Loops without limits were not audited in lanes: of these, in steps of 1/30 s, the energy of some swung by more than this.</summary>
+    [TestCase(1)]
+    [TestCase(4)]
+    [TestCase(8)]
+    public void Step_CoarseFourBars_KeepEnergyInAnyNumberOfLanes(int lanes)
+    {
+        const double dt = 1 / 30.0;
+        MultibodySystem m = SolverScenes.FourBars(9);
+        var solver = new RattleSolver(m, lanes);
+        double start = MechanismMeasures.Energy(m);
+        double largest = MechanismMeasures.FallEnergy(m, 2 * dt);
+        for (int i = 0; i < 300; i++)
+        {
+            solver.Step(dt);
+            largest = Math.Max(largest, MechanismMeasures.Kinetic(m));
+            Assert.That((MechanismMeasures.Energy(m) - start) / largest, Is.InRange(-1e-2, 1e-3), $"step {i}");
+        }
+    }
+}

@@ -278,10 +278,7 @@ class _Builder:
             if mapped is None:
                 continue
             connected = self.ground if mapped.connected is None else self.object_of[mapped.connected]
-            component = replace(mapped.component, connectedBody=connected)
-            sides = zip(mapped.parts, (self.object_of[mapped.owner], connected))
-            parts = ["" if n is None or self.object_of[n] == at else self.scene.nodes[n].id for n, at in sides]
-            component = replace(component, part=parts[0], connectedPart=parts[1])
+            component = replace(mapped.component, connectedBody=connected, **mapped.beside(self.scene))
             if isinstance(component, AnchoredJoint):
                 names = {i: at.name for i, at in mapped.coordinates.items()}
                 component = replace(component, **stated_of(joint, names))

@@ -65,7 +65,7 @@ def _component(
     report.diagnostics.extend(made.diagnostics)
     if mapped is None:
         return None
-    component = replace(mapped.component, enabled=False)
+    component = replace(mapped.component, enabled=False, **mapped.beside(scene))
     if isinstance(component, AnchoredJoint):
         names = {i: at.name for i, at in mapped.coordinates.items()}
         component = replace(component, **stated_of(joint, names))

@@ -65,6 +65,11 @@ class UnityJoint:
     coordinates: dict[int, UnityCoordinate]
     parts: tuple[int | None, int | None]
 
+    def beside(self, scene: Scene) -> dict[str, str]:
+        """The component's fields of the parts that others have the Rigidbodies of."""
+        sides = {"part": (self.parts[0], self.owner), "connectedPart": (self.parts[1], self.connected)}
+        return {key: scene.nodes[n].id for key, (n, carrier) in sides.items() if n is not None and n != carrier}
+
 
 def map_joint(
     joint: Joint,

@@ -95,6 +95,10 @@ APART_ONCE = {
     92355: (2, 1),  # a rack of a metre a degree hid that a loop has two motions
     94161: (3, 1),
     94743: (5, 5),  # a velocity that the fourth power of the way obstructs
+    100278: (1, 0),  # a motion that turns back within a hundredth
+    100916: (5, 0),
+    101542: (3, 3),  # legs at the poles of their universal joints turn idly, unless the platform moves
+    102298: (9, 6),  # a body with two velocities of which one goes on
     90882: (5, 5),  # obstructed velocities mixed with motions, which do not come back onto the joints in one go
 }
 """Mechanisms, by seed, that were once counted differently: mobility and idle freedoms."""

@@ -1,5 +1,6 @@
 using System;
 using System.Collections.Generic;
+using System.Threading;
 using Kinefab.Joints;
 using Kinefab.Numerics;
 
@@ -21,6 +22,9 @@ internal sealed class MultibodySystem
 
     /// <summary>How many threads a step may use.</summary>
     public int Threads = 1;
+
+    /// <summary>Ends a step early, amid what it writes; set for a step that can be undone, see <see cref="World.Step"/>.</summary>
+    public CancellationToken Cancellation;
 
     /// <summary>Writes the last step's reactions; set by a solver that leaves this until they are read.</summary>
     public Action<JointReaction[]>? UnreadReactions;

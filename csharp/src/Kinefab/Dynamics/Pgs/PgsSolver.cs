@@ -265,6 +265,7 @@ internal sealed class PgsSolver : ISolver, IStepParts
 
     private void Sweep(Part part, double[] constants)
     {
+        _mechanism.Cancellation.ThrowIfCancellationRequested();
         for (int b = part.First; b < part.End; b++)
         {
             ref JointBlock block = ref _blocks[b];

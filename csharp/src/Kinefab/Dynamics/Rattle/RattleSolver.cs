@@ -25,7 +25,12 @@ internal sealed class RattleSolver : ISolver, IStepParts
     private readonly int _maxWidth;
     private readonly List<IslandGroup> _groups = new();
     private readonly Dictionary<int, LoopConsistency> _fits = new();
+    private readonly List<Island> _alone = new();
+    private readonly List<LaneIsland> _inLanes = new();
     private readonly Action<JointReaction[]> _writeReactions;
+
+    // How often islands were found: a number for those that are there.
+    private int _findings;
     private LayoutWatch _watch;
     private double _dt;
     private double _tolerance;
@@ -105,17 +110,27 @@ internal sealed class RattleSolver : ISolver, IStepParts
     }
 
     /// <inheritdoc/>
-    void IStepParts.Do(int part) => _groups[part].Step(_dt, _tolerance, _areReactionsAwaited);
+    void IStepParts.Do(int part)
+    {
+        _mechanism.Cancellation.ThrowIfCancellationRequested();
+        _groups[part].Step(_dt, _tolerance, _areReactionsAwaited);
+    }
 
     /// <inheritdoc/>
     public void Exchange(StateTape tape)
     {
         // Where the groups are to be made anew by the next step, there is nothing to remember.
         bool isStale = !tape.IsPlaying && IsStale(out _);
+        int findings = _findings;
         tape.Value(ref isStale);
-        if (tape.IsPlaying)
+        tape.Value(ref findings);
+        if (tape.IsPlaying && (isStale || findings != _findings))
         {
             Regroup();
+        }
+        else if (tape.IsPlaying)
+        {
+            MakeGroups();
         }
 
         foreach (IslandGroup group in _groups)
@@ -140,7 +155,9 @@ internal sealed class RattleSolver : ISolver, IStepParts
     private void Regroup()
     {
         _mechanism.HasChangedBodies = false;
-        _groups.Clear();
+        _findings++;
+        _alone.Clear();
+        _inLanes.Clear();
         List<Island> rest = IslandFinder.Find(_mechanism);
         _watch = new LayoutWatch(_mechanism.Joints);
         for (int i = 0; i < _mechanism.Joints.Length; i++)
@@ -158,26 +175,32 @@ internal sealed class RattleSolver : ISolver, IStepParts
             island.Loops = probed is null ? LoopConsistency.Exact : _fits[probed.Index];
         }
 
-        var alone = new List<Island>();
-        var inLanes = new List<LaneIsland>();
         foreach (Island island in rest)
         {
             LaneIsland? lanes = LaneIsland.Of(island);
             if (lanes is null)
             {
-                alone.Add(island);
+                _alone.Add(island);
             }
             else
             {
-                inLanes.Add(lanes);
+                _inLanes.Add(lanes);
             }
         }
 
-        foreach (List<Island> some in InGroups(alone))
+        MakeGroups();
+    }
+
+    // With nothing remembered, of the islands that were found: these never change, and their patterns cost more than a step where they are wide.
+    private void MakeGroups()
+    {
+        _groups.Clear();
+        foreach (List<Island> some in InGroups(_alone))
         {
             _groups.Add(new ScalarIslandGroup(_mechanism, some));
         }
 
+        var inLanes = new List<LaneIsland>(_inLanes);
         while (inLanes.Count > 0)
         {
             LaneIsland shape = inLanes[0];

@@ -1,5 +1,6 @@
 using System;
 using System.Collections.Generic;
+using System.Diagnostics;
 using System.Linq;
 using System.Threading;
 using Kinefab.Diagnostics;
@@ -13,13 +14,16 @@ public sealed partial class World
 {
     private const double MostSteps = 100_000_000;
 
+    // Of a step after which the next one is such that it can be cancelled, which costs it what a snapshot does. What comes out is the same.
+    private static readonly TimeSpan LongStep = TimeSpan.FromSeconds(0.1);
+
     /// <summary>Steps on for a time, or until something happens, and keeps what it is asked to.</summary>
     /// <param name="seconds">How long at most; rounded to whole steps, one at least.</param>
     /// <param name="until">Ends the run when true; asked after every step. Null: it runs to its end.</param>
     /// <param name="record">Joint coordinates to keep at the start and after every step, named as in <see cref="this[string]"/>; null: none.</param>
     /// <param name="step">Seconds; null: the scene's fixedTimestep.</param>
     /// <param name="progress">Told the number of steps done after each; null: nobody is.</param>
-    /// <param name="cancellation">Ends the run early; the world then stands after some step.</param>
+    /// <param name="cancellation">Ends the run early, amid the first step or one after a step of a tenth of a second or longer too; the world then stands after some step.</param>
     /// <returns>What was kept. What the mechanism did, broken joints and a solver that could not follow among it, is no error.</returns>
     /// <exception cref="ArgumentException">A name answers to no coordinate, or to several (the message says which there are); or a time is no positive finite number.</exception>
     /// <exception cref="OperationCanceledException">It was cancelled.</exception>
@@ -43,10 +47,14 @@ public sealed partial class World
         int stops = Stops;
         int said = Findings.Diagnostics.Count;
         bool hasEnded = false;
+        bool isLong = true;
+        var watch = new Stopwatch();
         for (int i = 1; i <= count && !hasEnded; i++)
         {
             cancellation.ThrowIfCancellationRequested();
-            Step(dt);
+            watch.Restart();
+            Step(dt, isLong ? cancellation : default);
+            isLong = watch.Elapsed > LongStep;
             times.Add(Time);
             for (int c = 0; c < columns.Length; c++)
                 columns[c].Add(recorded[c].Joint.Coordinate(recorded[c].Coordinate));

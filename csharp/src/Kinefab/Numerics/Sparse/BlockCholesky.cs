@@ -1,4 +1,5 @@
 using System.Runtime.CompilerServices;
+using System.Threading;
 
 namespace Kinefab.Numerics;
 
@@ -16,15 +17,28 @@ internal static class BlockCholesky<V>
     // Instead of a number of columns, which may be none.
     private const int Triangle = -1;
 
+    // Before a factor looks whether it was cancelled: those of the many small mechanisms never do.
+    private const int ColumnsBetweenLooks = 64;
+
     // A pivot lost to rounding is replaced, so that the result stays finite; the caller's residual then tells.
     private const double LeastPivot = 1e-30;
 
     /// <summary>Replaces the matrix by its factor.</summary>
-    public static void Factor(BlockPattern pattern, double[] a)
+    /// <param name="pattern">Where its blocks stand.</param>
+    /// <param name="a">The matrix.</param>
+    /// <param name="cancellation">Ends it early, with an OperationCanceledException, and leaves neither matrix nor factor.</param>
+    public static void Factor(BlockPattern pattern, double[] a, CancellationToken cancellation = default)
     {
         int w = Lane<V>.Width;
-        foreach (BlockPattern.Column column in pattern.Columns)
+        BlockPattern.Column[] columns = pattern.Columns;
+        for (int turn = 0; turn < columns.Length; turn++)
         {
+            if (turn % ColumnsBetweenLooks == ColumnsBetweenLooks - 1)
+            {
+                cancellation.ThrowIfCancellationRequested();
+            }
+
+            BlockPattern.Column column = columns[turn];
             int n = column.Size;
             int diagonal = column.Diagonal * w;
             if (column.IsNegative)

@@ -18,7 +18,8 @@ from ..equations.solve import Solver
 from ..equations.system import State, System
 from ..freedom.bodies import stated_bodies
 from ..freedom.first_order import BlockFreedom, block_freedoms, moved_to_one_point
-from ..freedom.motion import STEP, FiniteFreedom, displaced, finite_freedoms
+from ..freedom.motion import FiniteFreedom, displaced, finite_freedoms
+from ..freedom.probes import STEP
 from ..pairs.relations import Pairs, batched_null_spaces, pairs_of, relative_rows
 from .blocks import Blocks, blocks_of, edges_of, relative_system
 from .canonical import canonical

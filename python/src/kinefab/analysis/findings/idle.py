@@ -26,14 +26,17 @@ from ..pairs.relations import Pairs, batched_null_spaces, pairs_of, relative_row
 
 ALONE = 1e-12
 """How far the cosine between two joints' twists, squared, may be from 1."""
-NEW = 1e-6
-"""Length of a motion beside those already found from which it is another one."""
+SURE = 1e-6
+"""Share of an exactly known motion up to which a block has no part in it."""
 SOME = 1e-2
-"""Share of a motion up to which a block has no part in it where velocities are obstructed: motions are known to a step's curvature there."""
+"""The same where velocities are obstructed, since motions are known to a step's curvature there; and length of a motion beside those
+already found from which it is another one."""
 NEAR = 4e-6
 """Difference of two unit twists, along any direction, beyond which they are not shared up to ``ALONE``."""
 ASLANT = np.array([0.37, 0.43, 0.29, 0.53, 0.41, 0.39])
 """A direction, about one long, that favours no twist, to sort them along."""
+GOES_ON = 0.1
+"""Share of a motion that may be outside of the finite ones: where others are obstructed, these are known to a step's curvature."""
 STILL = 1e-6
 """Rate of a coupling, beside the largest of its joints', that a twist does not change."""
 MOST = 10_000
@@ -63,7 +66,7 @@ def idle_freedoms(assembly: Assembly) -> list[IdleFreedom]:
 @dataclass(slots=True, eq=False)
 class _Search:
     """bodies: of each node, bodies that nothing lets move against each other.  twists: orthonormal, shape (6, n), by which
-    the two nodes of each edge may move against each other, all about one point.  part: of each edge, of ``freedoms``.
+    the two nodes of each edge may move against each other, all about one ``point``.  part: of each edge, of ``freedoms``.
     coupled: of each row over several pairs, by the nodes of each of its atoms, what a twist of the second adds to it, shape
     (6,).  left: freedoms of each block of joints that are not known to be idle.  known: motions found, by node, orthonormal; known_of:
     those in which a node moves.
@@ -75,6 +78,7 @@ class _Search:
     twists: list[Array]
     part: list[int]
     coupled: list[list[tuple[int, int, Array]]]
+    point: Array
     left: dict[int, int]
     known: list[dict[int, Array]] = field(default_factory=list[dict[int, Array]])
     known_of: dict[int, list[int]] = field(default_factory=dict[int, list[int]])
@@ -127,11 +131,8 @@ class _Search:
             return
         bodies = sorted(body for node in nodes for body in self.bodies[node])
         # the joints may leave a twist to first order alone, as a slot across does
-        most = _with_all_else_held(self.assembly, bodies)
-        count = 0
-        for twist in twists.T:  # a ram's spin is that of its tube and its piston, if these turn
-            if count < most and self._is_new(nodes, twist):
-                count += 1
+        twists = _that_go_on(self.assembly, bodies, twists, self.point)
+        count = sum(self._is_new(nodes, twist) for twist in twists.T)  # a ram's spin is that of its tube and its piston, if these turn
         if count:
             self.left[block] -= count
             yield IdleFreedom(tuple(sorted(n for body in bodies for n in self.assembly.nodes[body])), count)
@@ -154,7 +155,7 @@ class _Search:
             for node, own in other.items():
                 motion[node] = motion.get(node, 0.0) - along * own
         rest = np.sqrt(sum(float(own @ own) for own in motion.values()))
-        if rest <= NEW:
+        if rest <= SOME:
             return False
         for node in motion:
             self.known_of.setdefault(node, []).append(len(self.known))
@@ -184,7 +185,7 @@ def _search_of(assembly: Assembly) -> _Search:
     cuts = cut_pairs(system.bodies, list(zip(pairs.first.tolist(), pairs.second.tolist())))
     part = assembly.solver.row_part[rows[numbers >= 0]].tolist()
     coupled = _coupled(system, pairs, point, length)
-    return _Search(assembly, bodies, cuts, twists, part, coupled, _freedoms_of_blocks(assembly, bodies, cuts, part))
+    return _Search(assembly, bodies, cuts, twists, part, coupled, point, _freedoms_of_blocks(assembly, bodies, cuts, part))
 
 
 def _freedoms_of_blocks(
@@ -208,7 +209,7 @@ def _freedoms_of_blocks(
             at_rest = np.zeros((1, 6, count))
             own = np.concatenate([twists, at_rest])[[place.get(bodies[node][0], -1) for node in nodes]]
             # beside a steep rack a motion that is known exactly may be a small share of all that move
-            some = SOME if finite.singular else max(NEW, freedom.noise)
+            some = SOME if finite.singular else max(SURE, freedom.noise)
             count = int(np.linalg.matrix_rank((own - own[:1]).reshape(-1, count), tol=some))
         found[block] = count if count > 1 else 0
     return found
@@ -253,15 +254,40 @@ def _common(a: Array, b: Array, tolerance: float) -> Array:
     return a @ vt[: int(np.sum(s**2 > 1.0 - tolerance))].T
 
 
-def _with_all_else_held(assembly: Assembly, bodies: list[int]) -> int:
-    """Freedoms of finite motion that bodies have while all others stand still, those that hang on them too."""
+def _that_go_on(assembly: Assembly, bodies: list[int], twists: Array, point: Array) -> Array:
+    """What of the twists by which bodies move as one is a finite motion while all others stand still, those that hang on them too.
+
+    twists: see ``_Search``, about ``point``.
+    """
+    tangent = _with_all_else_held(assembly, bodies)
+    system = assembly.system
+    length = system.length[bodies, None, None]
+    arm = (system.center[bodies] - point)[:, None]
+    turning = np.swapaxes(cross(twists[3:].T[None], arm), 1, 2)
+    linear = (twists[:3] * assembly.equations.length + turning) / length
+    moved = np.concatenate([linear, np.broadcast_to(twists[3:], linear.shape)], axis=1).reshape(-1, twists.shape[1])
+    moved, mix = np.linalg.qr(moved)
+    left = moved - tangent @ (tangent.T @ moved)
+    _, s, vt = np.linalg.svd(left, full_matrices=False)
+    return np.linalg.qr(twists @ np.linalg.solve(mix, vt[s < GOES_ON].T))[0]
+
+
+def _with_all_else_held(assembly: Assembly, bodies: list[int]) -> Array:
+    """Scaled twists (v / length, w) of bodies about their own points, orthonormal columns, that lead into the finite motions which they
+    have while all others stand still, those that hang on them too."""
     system = assembly.system
     across = system.body_a != system.body_b  # inside a body all stands still, though a coupling counts from it
     own = across & (np.isin(system.body_a, bodies) | np.isin(system.body_b, bodies))
     rows = np.unique(system.row[own])
     solver = Solver(system.part(np.flatnonzero(np.isin(system.row, rows)), rows, np.array(bodies)))
     start = solver.system.start()
-    return sum(f.mobility for f in finite_freedoms(solver, block_freedoms(solver, start), start))
+    first = block_freedoms(solver, start)
+    columns: list[Array] = []
+    for own, finite in zip(first, finite_freedoms(solver, first, start)):
+        spread = np.zeros((len(bodies), 6, finite.mobility))
+        spread[own.bodies - 1] = finite.tangent.reshape(len(own.bodies), 6, finite.mobility)
+        columns.append(spread.reshape(6 * len(bodies), finite.mobility))
+    return np.concatenate(columns, axis=1)
 
 
 def _sharing(edges: list[int], twists: list[Array], tolerance: float) -> list[tuple[int, int]]:

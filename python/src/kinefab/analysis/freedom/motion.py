@@ -13,26 +13,19 @@ from itertools import pairwise
 
 import numpy as np
 
-from ...spatial import Array, IntArray
+from ...spatial import Array
 from ..equations.solve import Solver
 from ..equations.system import State
 from .first_order import BlockFreedom, block_freedoms
 from .noise import moves_up_to_noise
+from .probes import OPEN, STEP, WHOLE, floor_of, kept_of, left_of, random_direction, trial
 from .stacks import alike
 
-STEP = 1e-3
-"""Size of a trial step, radians or fractions of the length."""
 SURVIVES = 5.0
 """Relative change of a random step, over its size, by which the whole null space still counts as motions: their own curvature
 changes it by about its size."""
 DIRECTION = 0.05
 """Share of its length that a step must keep to count as a motion of its own."""
-WHOLE = 0.9
-"""Share above which nothing is in doubt: a motion keeps all of itself, but for its curvature."""
-HIDDEN = 1e-6
-"""Way up to which nothing is left: an obstructed velocity keeps the root of the closing error, some 1e-7, whatever the step."""
-ROUNDS = 3
-"""Times that what is left of directions is tried again."""
 HALF = 0.5
 """Share above which it counts where it stays in doubt: a motion keeps all of itself, what is obstructed less each time."""
 MOST_DIRECTIONS = 12
@@ -48,9 +41,11 @@ FURTHER = 0.1
 """Size of the last step to where these start: larger, or they fall back to the singular pose and onto its other branches."""
 MOST_FURTHER = 5
 """Such steps, while what is left of some velocity is in doubt."""
-PROBES = (1e-2, 0.2)
-"""Sizes of the trial steps of a singular part.  The longer one decides: what the fourth power of the way obstructs keeps the
-fourth root of the closing error, some 1e-2 where rows that nearly repeat each other hold up the closing."""
+PROBES = (STEP, 1e-2, 0.2)
+"""Sizes of the trial steps of a singular part, each where the one before does not tell."""
+TELLING = 0.125
+"""Share of a step whose fourth power is no less open than the poses there, so that the step tells: what the fourth power of the
+way obstructs keeps the fourth root of the closing error, 1e-3 to 1e-2 where rows that nearly repeat each other hold up the closing."""
 WALK = 3
 WALK_STEP = 0.05
 NOISY_GAP = 1e10
@@ -60,10 +55,6 @@ NOISE = 1e-9
 """The same of a residual at the start."""
 MOVES = 1e-6
 """Share of a velocity up to which a body stands still in it."""
-OPEN = 1e4
-"""Times the error asked for beyond which a pose that was to be closed got stuck: it is none of the mechanism's."""
-SQUARE = 1e-2
-"""Share of a trial step whose square is no more open than that: it hides no more of what is obstructed."""
 
 
 @dataclass(slots=True, eq=False)
@@ -89,15 +80,17 @@ def finite_freedoms(solver: Solver, first_order: list[BlockFreedom], start: Stat
     doubtful = np.array([f.mobility > 0 and len(f.rows) > f.rank for f in first_order], dtype=bool)
     if doubtful.any():
         draw, blocks = np.random.default_rng(11), dict(enumerate(first_order))
-        floor = _floor(solver, start)
+        floor = floor_of(solver, start)
         for part in np.flatnonzero(doubtful).tolist():
             noisy = first_order[part].gap < NOISY_GAP or floor[part] > NOISE
             doubtful[part] = not (noisy and moves_up_to_noise(solver.alone(part), first_order[part]))
-        for step in (STEP, PROBES[0]):
+        for step in PROBES[:2]:
             directions = _random_directions(blocks, np.flatnonzero(doubtful).tolist(), draw)
-            moved, _ = _trial(solver, blocks, start, directions, step, floor) if directions else ({}, set())
+            moved, _ = trial(solver, blocks, start, directions, step, floor) if directions else ({}, floor)
             for part in _changed(directions, moved, SURVIVES * step):
-                found[part] = _searched(solver, part, first_order[part])
+                searched = _searched(solver, part, first_order[part])
+                if searched.mobility < first_order[part].mobility:
+                    found[part] = searched
                 doubtful[part] = False
     return found
 
@@ -105,7 +98,7 @@ def finite_freedoms(solver: Solver, first_order: list[BlockFreedom], start: Stat
 def _random_directions(
     first_order: Mapping[int, BlockFreedom], parts: list[int], draw: np.random.Generator
 ) -> dict[int, Array]:
-    """As ``_random_direction``, of many parts."""
+    """As ``random_direction``, of many parts."""
     numbers = [draw.standard_normal((first_order[p].mobility,)) for p in parts]
     found: dict[int, Array] = dict.fromkeys(parts, np.zeros(0))
     for _, group in alike(first_order[p].basis.shape for p in parts):
@@ -131,8 +124,8 @@ def _changed(directions: Mapping[int, Array], moved: Mapping[int, Array], most: 
 
 def displaced(solver: Solver, first_order: Mapping[int, BlockFreedom], start: State) -> dict[int, Array]:
     """Displacements over STEP of some parts' bodies after a random small motion, by part, shape (6 n,) each."""
-    directions = {p: _random_direction(f.basis, np.random.default_rng(11)) for p, f in first_order.items()}
-    return _trial(solver, first_order, start, directions)[0] if directions else {}
+    directions = {p: random_direction(f.basis, np.random.default_rng(11)) for p, f in first_order.items()}
+    return trial(solver, first_order, start, directions)[0] if directions else {}
 
 
 def stepped(
@@ -142,70 +135,21 @@ def stepped(
     moving = [f for f in first_order if f.mobility]
     if not moving:
         return start
-    twists = [size * _random_direction(f.basis, draw).reshape(-1, 6) for f in moving]
+    twists = [size * random_direction(f.basis, draw).reshape(-1, 6) for f in moving]
     return solver.project(
         solver.system.moved(start, np.concatenate([f.bodies for f in moving]), np.concatenate(twists))
     )[0]
 
 
-def _random_direction(basis: Array, draw: np.random.Generator) -> Array:
-    direction: Array = basis @ draw.standard_normal((basis.shape[1],))
-    return direction / np.abs(direction).max()
-
-
-def _floor(solver: Solver, state: State) -> Array:
-    """A pose that cannot be closed further is asked for no more than it has."""
-    return np.maximum(1e-14, 2.0 * solver.worst(solver.system.residual(state)))
-
-
-def _trial(
-    solver: Solver,
-    first_order: Mapping[int, BlockFreedom],
-    start: State,
-    directions: dict[int, Array],
-    step: float = STEP,
-    floor: Array | None = None,
-    *,
-    keep: bool = False,
-) -> tuple[dict[int, Array], set[int]]:
-    """Displacements (6 n of each part), over ``step``, after a step along each direction and back onto the rows; and the parts
-    that did not come back onto them, which have kept nothing unless told to ``keep``.
-
-    floor: see ``_floor``, where it is known."""
-    bodies = np.concatenate([first_order[p].bodies for p in directions])
-    twists = step * np.concatenate([d.reshape(-1, 6) for d in directions.values()])
-    active = np.zeros(solver.parts, dtype=bool)
-    active[list(directions)] = True
-    state = solver.system.moved(start, bodies, twists)
-    floor = _floor(solver, start) if floor is None else floor
-    state, left = solver.project(state, active, floor)
-    most = np.maximum(OPEN * floor, (SQUARE * step) ** 2)
-    stuck = {part for part in directions if left[part] > most[part]}
-    moved = _displacement(solver, bodies, start, state) / step
-    ends: list[int] = np.cumsum([6 * len(first_order[p].bodies) for p in directions]).tolist()
-    own = zip(directions, [0, *ends], ends)
-    return {part: moved[at:end] * (keep or part not in stuck) for part, at, end in own}, stuck
-
-
-def _displacement(solver: Solver, bodies: IntArray, start: State, end: State) -> Array:
-    """Scaled twist that takes the bodies from one state to a near one, to second order, shape (6 n,)."""
-    turn = end.rotation[bodies] @ np.swapaxes(start.rotation[bodies], 1, 2)
-    w = 0.5 * np.stack(
-        [turn[:, 2, 1] - turn[:, 1, 2], turn[:, 0, 2] - turn[:, 2, 0], turn[:, 1, 0] - turn[:, 0, 1]], axis=1
-    )
-    v = (end.shift[bodies] - start.shift[bodies]) / solver.system.length[bodies, None]
-    return np.concatenate([v, w], axis=1).ravel()
-
-
 def walked(solver: Solver, part: int, first_order: BlockFreedom, start: State, seed: int = 5) -> State:
     """A pose some random steps away, to leave an isolated singular one."""
     draw = np.random.default_rng(seed)
-    active, floor = np.arange(solver.parts) == part, _floor(solver, start)
+    active, floor = np.arange(solver.parts) == part, floor_of(solver, start)
     state, basis = start, first_order.basis
     for _ in range(WALK):
         if not basis.shape[1]:
             break
-        twist = WALK_STEP * _random_direction(basis, draw).reshape(-1, 6)
+        twist = WALK_STEP * random_direction(basis, draw).reshape(-1, 6)
         there, left = solver.project(solver.system.moved(state, first_order.bodies, twist), active, floor)
         if left[part] > OPEN * floor[part]:
             continue
@@ -222,7 +166,7 @@ def _searched(solver: Solver, part: int, first_order: BlockFreedom) -> FiniteFre
     there = block_freedoms(solver, away)
     if there[part].mobility * len(first_order.basis) > MOST_WORK:
         return _found_far_away(solver, part, there, away)
-    floor = _floor(solver, start)
+    floor = floor_of(solver, start)
     tangent = _beyond_doubt(solver, part, there[part], away, floor)
     if tangent.shape[1] == 0:
         return FiniteFreedom(*_with_bodies_at_rest(solver, first_order, start), True)
@@ -233,26 +177,31 @@ def _searched(solver: Solver, part: int, first_order: BlockFreedom) -> FiniteFre
         away = walked(solver, part, first_order, start, seed=6)
         other = _beyond_doubt(solver, part, block_freedoms(solver, away)[part], away, floor)
         tangent = other if other.shape[1] > tangent.shape[1] else tangent
+    if here.shape[1] > tangent.shape[1]:
+        at_rest = _with_bodies_at_rest(solver, first_order, start)[1]
+        tangent = at_rest if at_rest.shape[1] > tangent.shape[1] else tangent
     return FiniteFreedom(tangent.shape[1], here if here.shape[1] == tangent.shape[1] else tangent, True)
 
 
 def _beyond_doubt(solver: Solver, part: int, freedom: BlockFreedom, state: State, floor: Array) -> Array:
     """As ``_survivors``; while some velocity keeps a part of itself only, as where two branches of motions touch each other, from
     poses further away.  floor: of the pose where the walk to the state began."""
+    ways, share = freedom.basis, np.ones(freedom.mobility)
     for further in range(MOST_FURTHER):
-        ways = freedom.basis
-        share = np.zeros(0)
-        for step in PROBES:
-            if ways.shape[1]:
-                ways, share = _kept(solver, part, replace(freedom, basis=ways), state, step, floor)
-                ways, share = ways[:, share > DIRECTION], share[share > DIRECTION]
+        if further:
+            state, there = _further(solver, part, freedom, state)
+            freedom = there[part]
+        if not freedom.mobility:
+            return freedom.basis
+        ways, share, open_ = kept_of(solver, part, freedom, state, PROBES[0], floor)
+        for step, longer in pairwise(PROBES):
+            if open_ <= (TELLING * step) ** 4:
+                break
+            ways, share, open_ = kept_of(solver, part, freedom, state, longer, floor)
+        ways, share = ways[:, share > DIRECTION], share[share > DIRECTION]
         if not np.any(share < WHOLE):
             return ways
-        if further == MOST_FURTHER - 1:
-            return ways[:, share > HALF]
-        state, there = _further(solver, part, freedom, state)
-        freedom = there[part]
-    raise AssertionError("the last round returns")
+    return ways[:, share > HALF]
 
 
 def _found_far_away(
@@ -270,7 +219,7 @@ def _found_far_away(
         if sampled.shape[1] < 2:
             break
         # What an obstructed velocity left of itself is no motion, and does not go on.
-        ways, share = _kept(solver, part, replace(there[part], basis=sampled), away, LONG_STEP)
+        ways, share, _ = kept_of(solver, part, replace(there[part], basis=sampled), away, LONG_STEP)
         sampled = ways[:, share > DIRECTION]
         if share.min() > WHOLE:
             break
@@ -287,14 +236,13 @@ def _with_bodies_at_rest(solver: Solver, first_order: BlockFreedom, start: State
     if not 1 < first_order.mobility <= MOST_DIRECTIONS:
         return found
     for way in _velocities_at_rest(first_order):
-        left, _ = _left_of(solver, 0, first_order, start, way, STEP)
+        left, _ = left_of(solver, 0, first_order, start, way, STEP)
         if np.linalg.norm(left) < 1.0 - DIRECTION:
             continue
         twist = WALK_STEP * (way / np.abs(way).max()).reshape(-1, 6)
-        state, _ = solver.project(
-            solver.system.moved(start, first_order.bodies, twist), None, _floor(solver, start)
-        )
-        tangent = _survivors(solver, 0, block_freedoms(solver, state)[0], state)
+        floor = floor_of(solver, start)
+        state, _ = solver.project(solver.system.moved(start, first_order.bodies, twist), None, floor)
+        tangent = _beyond_doubt(solver, 0, block_freedoms(solver, state)[0], state, floor)
         if tangent.shape[1] > found[0]:
             found = tangent.shape[1], left[:, None] if tangent.shape[1] == 1 else tangent
     return found
@@ -322,12 +270,12 @@ def _further(
 ) -> tuple[State, list[BlockFreedom]]:
     """A pose further away, and the first order there: of many random velocities the obstructed ones take the others
     along, so that the pose has hardly moved; what a trial step leaves of one is a motion that goes on."""
-    random = _random_direction(freedom.basis, np.random.default_rng(29))
-    way, _ = _left_of(solver, part, freedom, state, random, LONG_STEP)
+    random = random_direction(freedom.basis, np.random.default_rng(29))
+    way, _ = left_of(solver, part, freedom, state, random, LONG_STEP)
     if (size := np.abs(way).max()) > 0.0:
         twist = FURTHER * (way / size).reshape(-1, 6)
         state, _ = solver.project(
-            solver.system.moved(state, freedom.bodies, twist), None, _floor(solver, state)
+            solver.system.moved(state, freedom.bodies, twist), None, floor_of(solver, state)
         )
     return state, block_freedoms(solver, state)
 
@@ -336,28 +284,8 @@ def _survivors(solver: Solver, part: int, freedom: BlockFreedom, state: State, s
     """Orthonormal directions that trial steps both ways keep, shape (6 n, m)."""
     if not freedom.basis.shape[1]:
         return np.zeros((len(freedom.bodies) * 6, 0))
-    ways, share = _kept(solver, part, freedom, state, step)
+    ways, share, _ = kept_of(solver, part, freedom, state, step)
     return ways[:, share > DIRECTION]
-
-
-def _kept(
-    solver: Solver, part: int, freedom: BlockFreedom, state: State, step: float, floor: Array | None = None
-) -> tuple[Array, Array]:
-    """Orthonormal directions of what trial steps both ways leave of a basis, shape (6 n, m), and the share left of each.
-
-    An obstructed velocity takes a motion back along with it, or does not come back onto the rows with it: what is left of
-    directions that hold both is tried again by itself before it has kept nothing.
-    """
-    basis = freedom.basis
-    for last in (*(False for _ in range(1, ROUNDS)), True):
-        tried = [
-            _left_of(solver, part, freedom, state, direction, step, floor, keep=not last) for direction in basis.T
-        ]
-        u, s, _ = np.linalg.svd(np.array([left for left, _ in tried]).T, full_matrices=False)
-        if not (any(stuck for _, stuck in tried) or np.any((s > HIDDEN / step) & (s < WHOLE))):
-            break
-        basis = u[:, s > HIDDEN / step]
-    return u, s
 
 
 def _sampled(solver: Solver, part: int, freedom: BlockFreedom, state: State) -> Array | None:
@@ -366,31 +294,10 @@ def _sampled(solver: Solver, part: int, freedom: BlockFreedom, state: State) -> 
     draw = np.random.default_rng(31)
     kept: list[Array] = []
     for _ in range(MOST_SAMPLES):
-        kept.append(_left_of(solver, part, freedom, state, _random_direction(freedom.basis, draw), LONG_STEP)[0])
+        kept.append(left_of(solver, part, freedom, state, random_direction(freedom.basis, draw), LONG_STEP)[0])
         u, s, _ = np.linalg.svd(np.array(kept).T, full_matrices=False)
         # A random direction's share of one motion.
         least = DIRECTION * max(s[0], 1.0 / np.sqrt(freedom.mobility))
         if (found := int(np.sum(s > least))) <= len(kept) - SPARE:
             return u[:, :found]
     return None
-
-
-def _left_of(
-    solver: Solver,
-    part: int,
-    freedom: BlockFreedom,
-    state: State,
-    direction: Array,
-    step: float,
-    floor: Array | None = None,
-    *,
-    keep: bool = False,
-) -> tuple[Array, bool]:
-    """What trial steps both ways leave of a direction, as a share of its length, shape (6 n,); and whether one did not come back
-    onto the rows, see ``_trial``."""
-    direction = direction / np.abs(direction).max()
-    there, back = (
-        _trial(solver, {part: freedom}, state, {part: way}, step, floor, keep=keep) for way in (direction, -direction)
-    )
-    left = 0.5 * (there[0][part] - back[0][part]) / np.linalg.norm(direction)
-    return left, bool(there[1] or back[1])

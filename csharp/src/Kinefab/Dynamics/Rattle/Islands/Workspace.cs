@@ -1,4 +1,5 @@
 using System;
+using System.Threading;
 using Kinefab.Joints;
 using Kinefab.Numerics;
 
@@ -50,6 +51,9 @@ internal sealed class Workspace<V>
         Reaction = new double[6 * w];
         Rows = shape.HasAssembledRows ? new ConstraintRow[JointModel.MaxRows] : Array.Empty<ConstraintRow>();
     }
+
+    /// <summary>Ends the step early, as <see cref="MultibodySystem.Cancellation"/>.</summary>
+    public CancellationToken Cancellation { get; set; }
 
     /// <summary>Angular J times the inverse inertia, as <see cref="LaneRecords{V}.Angular"/>.</summary>
     public double[] Response { get; }

@@ -112,7 +112,7 @@ internal static class DelassusMatrix<V>
             Keep(batch);
         }
 
-        BlockCholesky<V>.Factor(batch.Shape.Pattern, batch.Matrix);
+        BlockCholesky<V>.Factor(batch.Shape.Pattern, batch.Matrix, batch.Work.Cancellation);
     }
 
     /// <summary>Replaces a vector over the rows by what the factored matrix makes of it, A^-1 b.</summary>

@@ -70,6 +70,7 @@ internal static class LaneTransfer<V>
     /// <returns>Whether a pose of any lane is not the one that the last step left.</returns>
     public static bool Gather(LaneRecords<V> batch, MultibodySystem mechanism, double dt)
     {
+        batch.Work.Cancellation = mechanism.Cancellation;
         Lane<V>.Splat(0).Store(batch.Work.Moved, 0);
         for (int b = 0; b < batch.Shape.MovingBodies; b++)
         {

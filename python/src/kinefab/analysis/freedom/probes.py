@@ -1,0 +1,123 @@
+"""Trial steps: what is left of a velocity after a step along it and back onto the rows."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+
+import numpy as np
+
+from ...spatial import Array, IntArray
+from ..equations.solve import Solver
+from ..equations.system import State
+from .first_order import BlockFreedom
+
+STEP = 1e-3
+"""Size of a trial step, radians or fractions of the length."""
+WHOLE = 0.9
+"""Share above which nothing is in doubt: a motion keeps all of itself, but for its curvature."""
+HIDDEN = 1e-6
+"""Way up to which nothing is left: an obstructed velocity keeps the root of the closing error, some 1e-7, whatever the step."""
+ROUNDS = 3
+"""Times that what is left of directions is tried again."""
+OPEN = 1e4
+"""Times the error asked for beyond which a pose that was to be closed got stuck: it is none of the mechanism's."""
+SQUARE = 1e-2
+"""Share of a trial step whose square is no more open than that: it hides no more of what is obstructed."""
+
+
+def random_direction(basis: Array, draw: np.random.Generator) -> Array:
+    direction: Array = basis @ draw.standard_normal((basis.shape[1],))
+    return direction / np.abs(direction).max()
+
+
+def floor_of(solver: Solver, state: State) -> Array:
+    """A pose that cannot be closed further is asked for no more than it has."""
+    return np.maximum(1e-14, 2.0 * solver.worst(solver.system.residual(state)))
+
+
+def _most_open(floor: Array, step: float) -> Array:
+    """Residual of each part beyond which a trial step did not come back onto the rows."""
+    return np.maximum(OPEN * floor, (SQUARE * step) ** 2)
+
+
+def trial(
+    solver: Solver,
+    first_order: Mapping[int, BlockFreedom],
+    start: State,
+    directions: dict[int, Array],
+    step: float = STEP,
+    floor: Array | None = None,
+    *,
+    keep: bool = False,
+) -> tuple[dict[int, Array], Array]:
+    """Displacements (6 n of each part), over ``step``, after a step along each direction and back onto the rows; and the residual
+    of each part there.  What did not come back onto them has kept nothing, unless told to ``keep``.
+
+    floor: see ``floor_of``, where it is known."""
+    bodies = np.concatenate([first_order[p].bodies for p in directions])
+    twists = step * np.concatenate([d.reshape(-1, 6) for d in directions.values()])
+    active = np.zeros(solver.parts, dtype=bool)
+    active[list(directions)] = True
+    state = solver.system.moved(start, bodies, twists)
+    floor = floor_of(solver, start) if floor is None else floor
+    state, left = solver.project(state, active, floor)
+    stuck = left > _most_open(floor, step)
+    moved = _displacement(solver, bodies, start, state) / step
+    ends: list[int] = np.cumsum([6 * len(first_order[p].bodies) for p in directions]).tolist()
+    own = zip(directions, [0, *ends], ends)
+    return {part: moved[at:end] * (keep or not stuck[part]) for part, at, end in own}, left
+
+
+def _displacement(solver: Solver, bodies: IntArray, start: State, end: State) -> Array:
+    """Scaled twist that takes the bodies from one state to a near one, to second order, shape (6 n,)."""
+    turn = end.rotation[bodies] @ np.swapaxes(start.rotation[bodies], 1, 2)
+    w = 0.5 * np.stack(
+        [turn[:, 2, 1] - turn[:, 1, 2], turn[:, 0, 2] - turn[:, 2, 0], turn[:, 1, 0] - turn[:, 0, 1]], axis=1
+    )
+    v = (end.shift[bodies] - start.shift[bodies]) / solver.system.length[bodies, None]
+    return np.concatenate([v, w], axis=1).ravel()
+
+
+def kept_of(
+    solver: Solver, part: int, freedom: BlockFreedom, state: State, step: float, floor: Array | None = None
+) -> tuple[Array, Array, float]:
+    """Orthonormal directions of what trial steps both ways leave of a basis, shape (6 n, m), the share left of each, and the largest
+    residual where the steps ended.
+
+    An obstructed velocity takes a motion back along with it, or does not come back onto the rows with it: what is left of
+    directions that hold both is tried again by itself before it has kept nothing.
+    """
+    basis = freedom.basis
+    floor = floor_of(solver, state) if floor is None else floor
+    for last in (*(False for _ in range(1, ROUNDS)), True):
+        tried = [
+            left_of(solver, part, freedom, state, direction, step, floor, keep=not last) for direction in basis.T
+        ]
+        u, s, _ = np.linalg.svd(np.array([left for left, _ in tried]).T, full_matrices=False)
+        open_ = max(residual for _, residual in tried)
+        some = s > HIDDEN / step
+        if not some.any() or (open_ <= _most_open(floor, step)[part] and not np.any(some & (s < WHOLE))):
+            break
+        basis = u[:, some]
+    return u, s, open_
+
+
+def left_of(
+    solver: Solver,
+    part: int,
+    freedom: BlockFreedom,
+    state: State,
+    direction: Array,
+    step: float,
+    floor: Array | None = None,
+    *,
+    keep: bool = False,
+) -> tuple[Array, float]:
+    """What trial steps both ways leave of a direction, as a share of its length, shape (6 n,); and the larger residual where they
+    ended, see ``trial``."""
+    direction = direction / np.abs(direction).max()
+    there, back = (
+        trial(solver, {part: freedom}, state, {part: way}, step, floor, keep=keep) for way in (direction, -direction)
+    )
+    left = 0.5 * (there[0][part] - back[0][part]) / np.linalg.norm(direction)
+    return left, max(float(there[1][part]), float(back[1][part]))

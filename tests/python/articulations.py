@@ -70,11 +70,11 @@ def _stated(draw: random.Random, joint: Joint) -> Joint:
     freedoms, lone = list(joint.freedoms), len(joint.unlocked) == 1 or draw.random() < 0.1
     for i in joint.unlocked:
         unit = 1.0 if i < 3 else math.pi
-        freedom = replace(freedoms[i], passive=alike)
+        freedom = replace(freedoms[i], passive=alike if draw.random() < 0.7 else _passive(draw, lone=len(joint.unlocked) == 1))
         if draw.random() < 0.6:
             low, high = -unit * draw.uniform(0.05, 0.9), unit * draw.uniform(0.05, 0.9)
             wide = draw.choice([1.0, 1.0, 1.0, 1.7]) if i >= 3 else 1.0
-            freedom = Freedom(Motion.LIMITED, wide * low, wide * high if draw.random() < 0.7 else -wide * low, passive=alike)
+            freedom = Freedom(Motion.LIMITED, wide * low, wide * high if draw.random() < 0.7 else -wide * low, passive=freedom.passive)
         freedoms[i] = replace(freedom, drive=_drive(draw, unit, lone) if draw.random() < 0.5 else None)
     slerp = None
     if len(joint.unlocked) == 3 and draw.random() < 0.3:

@@ -24,7 +24,7 @@ OLDER = replace(SETTINGS, closures=kinefab.Closures.MINIMAL)
 FIXTURES = Path(__file__).resolve().parents[2] / "fixtures"
 
 
-NEWER = r', "(?:id|name|definition)": "(?:[^"\\]|\\.)*"'
+NEWER = r', "(?:id|name|part|connectedPart|definition)": "(?:[^"\\]|\\.)*"'
 """What format 1.1 tells beyond 1.0 of a joint, behind its type, and of a part, at its end or before its components."""
 
 

@@ -13,8 +13,8 @@ from scipy.spatial.transform import Rotation
 
 CLOSE = 1e-9
 UNMOVING = {
-    *("extras", "secondaryAxis", "closure", "because", "id", "name"),
-    *("effort", "speed", "friction", "armature"),  # URDF asks for them, the others do without
+    *("extras", "secondaryAxis", "closure", "because", "id", "name", "part", "connectedPart"),
+    *("effort", "speed", "friction", "armature", "stated"),  # URDF asks for them, the others do without
 }
 
 

@@ -70,6 +70,30 @@ def test_what_one_component_cannot_express_is_reported(kind, freedoms, code, tmp
     assert joint["exact"] is False
 
 
+def test_what_the_coordinates_of_a_joint_differ_in_comes_back_of_the_scene(tmp_path):
+    """By coordinate: two turns of different efforts, and a slide that turns as well."""
+    scene = kinefab.Scene()
+    base = scene.add_part("Base", BOX, grounded=True)
+    cross, drill = (scene.add_part(name, BOX, translation=(0, i, 0)) for i, name in enumerate(("Cross", "Drill")))
+    first, second = Passive(friction=0.2, effort=20.0, speed=0.5), Passive(effort=0.0, armature=1.5e-7)
+    turns = {"rx": Freedom(Motion.FREE, passive=first), "rz": Freedom(Motion.FREE, passive=second)}
+    scene.add_joint("universal", base, cross, point=(0, 0, 0), axis=(1, 0, 0), secondary=(0, 0, 1), name="Cardan", **turns)
+    feed, spin = Passive(friction=3.0, speed=0.25), Passive(effort=8.0, speed=0.25)
+    moves = {"tx": Freedom(Motion.FREE, passive=feed), "rx": Freedom(Motion.FREE, passive=spin)}
+    scene.add_joint("cylindrical", base, drill, point=(0, 1, 0), axis=(1, 0, 0), name="Quill", **moves)
+    content, result = exported(scene, tmp_path)
+    assert {o.outcome for o in result.report.outcomes} == {Outcome.KEPT} and content["version"] == "1.1"
+    joints = {c["name"]: c for o in content["gameObjects"] for c in o["components"] if c["type"].endswith("Joint")}
+    quarter = pytest.approx(math.degrees(0.25))
+    assert joints["Quill"]["stated"] == {"x": {"speed": 0.25, "friction": 3}, "angularX": {"effort": 8, "speed": quarter}}
+    assert len(joints["Cardan"]["stated"]) == 2 and not joints["Cardan"].keys() & {"effort", "speed", "friction", "armature"}
+    by_file = {joint.name: joint for joint in kinefab.sources.read(result.path, kinefab.Report()).joints}
+    for name, stated in (("Cardan", (first, second)), ("Quill", (feed, spin))):
+        back = [by_file[name].freedoms[i].passive for i in by_file[name].unlocked]
+        assert [(p.friction, p.armature, p.effort) for p in back] == [(p.friction, p.armature, p.effort) for p in stated]
+        assert [p.speed for p in back] == pytest.approx([p.speed for p in stated])
+
+
 def test_a_joint_in_full_is_kept_and_its_effort_is_a_feature_of_its_own(tmp_path):
     """In the file's own report as well."""
     scene = kinefab.Scene()
@@ -113,14 +137,16 @@ def test_what_a_source_states_of_a_joint_comes_back_of_the_scene(tmp_path):
     assert found["Slide"].freedoms[0].passive == sliding
 
 
-def test_what_differs_among_a_joints_freedoms_is_reported_as_before(tmp_path):
+def test_what_differs_among_a_joints_freedoms_stands_in_the_scene_and_in_no_prefab(tmp_path):
     scene = kinefab.Scene()
     stiff, loose = (Freedom(Motion.FREE, passive=Passive(friction=value)) for value in (2.0, 1.0))
     part = scene.add_part("P", BOX)
     scene.add_joint("spherical", None, part, point=(0, 0, 0), name="J", rx=stiff, ry=loose, rz=loose)
     content, result = exported(scene, tmp_path)
-    assert '"friction"' not in json.dumps(content["gameObjects"])
-    assert sum(o.code == "JOINT_FRICTION_DROPPED" for o in result.report.outcomes) == 3
+    (joint,) = components(content, "P", "ConfigurableJoint")
+    assert joint["stated"] == {"angularX": {"friction": 2}, "angularY": {"friction": 1}, "angularZ": {"friction": 1}}
+    for source, lost in ((result, 0), (kinefab.export(scene, tmp_path / "a.prefab"), 3), (kinefab.export(result.path, tmp_path / "b.prefab"), 3)):
+        assert sum(o.code == "JOINT_FRICTION_DROPPED" for o in source.report.outcomes) == lost
 
 
 def test_what_several_freedoms_lose_are_several_features(tmp_path):
@@ -130,7 +156,7 @@ def test_what_several_freedoms_lose_are_several_features(tmp_path):
     named = replace(rough, name="travel")
     part = scene.add_part("P", BOX, density=700.0)
     scene.add_joint("cylindrical", None, part, point=(0, 0, 0), axis=(1, 0, 0), name="J", tx=named, rx=rough)
-    _, result = exported(scene, tmp_path)
+    result = kinefab.export(scene, tmp_path / "a.prefab")
     became = {o.feature: o.outcome.value for o in result.report.outcomes}
     assert became == {
         "friction of joint J, travel": "dropped",

@@ -102,6 +102,7 @@ def test_each_axis_of_a_ball_has_its_own_effort(tmp_path, speeds):
     for freedom, effort, speed in zip((RX, RY, RZ), (5.0, 6.0, 7.0), speeds):
         scene = changed(scene, "Wrist", freedom, passive=Passive(effort=effort, speed=speed))
     own = links(scene, tmp_path)["Hand"]
+    assert own == by_scene(scene, tmp_path)["Hand"]
     assert [own[f"{axis}Drive"]["forceLimit"] for axis in "xyz"] == [5.0, 6.0, 7.0]
     assert own.get("maxJointVelocity") == (2.0 if len(set(speeds)) == 1 else None)
     _, result = exported(scene, tmp_path)

@@ -18,8 +18,8 @@ from unity_yaml import documents
 
 DEFINITIONS = json.loads((schema_directory() / "scene.schema.json").read_text("utf-8"))["$defs"]
 INFINITE = {"breakForce", "breakTorque", "maximumForce"}
-ALSO = {"id", "name", "group", "because", "closure", "exact", "extras", "type", "mesh", "materials", "material"}
-ALSO |= {"connectedBody", "constraints", "effort", "speed", "friction", "armature"}
+ALSO = {"id", "name", "part", "connectedPart", "group", "because", "closure", "exact", "extras", "type", "mesh", "materials", "material"}
+ALSO |= {"connectedBody", "constraints", "effort", "speed", "friction", "armature", "stated"}
 """What a scene file says beside Unity's own fields, and what is compared by what it means."""
 
 

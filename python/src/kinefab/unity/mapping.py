@@ -278,10 +278,11 @@ class _Builder:
             if mapped is None:
                 continue
             connected = self.ground if mapped.connected is None else self.object_of[mapped.connected]
-            component = replace(mapped.component, connectedBody=connected)
+            component = replace(mapped.component, connectedBody=connected, **mapped.beside(self.scene))
             if isinstance(component, AnchoredJoint):
-                component = replace(component, **stated_of(joint))
-                own = [at.name for i, at in mapped.coordinates.items() if unbounded(joint.freedoms[i]) and joint.slerp is None]
+                names = {i: at.name for i, at in mapped.coordinates.items()}
+                component = replace(component, **stated_of(joint, names))
+                own = [name for i, name in names.items() if unbounded(joint.freedoms[i]) and joint.slerp is None]
                 component = replace(component, extras={**component.extras, OWN: own}) if own else component
             components = self.components[self.object_of[mapped.owner]]
             components.append(component)

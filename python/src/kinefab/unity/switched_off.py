@@ -65,9 +65,10 @@ def _component(
     report.diagnostics.extend(made.diagnostics)
     if mapped is None:
         return None
-    component = replace(mapped.component, enabled=False)
+    component = replace(mapped.component, enabled=False, **mapped.beside(scene))
     if isinstance(component, AnchoredJoint):
-        component = replace(component, **stated_of(joint))
+        names = {i: at.name for i, at in mapped.coordinates.items()}
+        component = replace(component, **stated_of(joint, names))
     if not lost:
         report.kept(feature, joint.where, "JOINT_DISABLED", joint=joint.id)
     return mapped.owner, mapped.connected, component

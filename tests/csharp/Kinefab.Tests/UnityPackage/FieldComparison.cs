@@ -14,7 +14,7 @@ namespace Kinefab.Tests.UnityPackage;
 internal sealed class FieldComparison
 {
     // What of the format is about the source, not for Unity. A joint that is not enabled is none there.
-    private static readonly HashSet<string> AboutTheSource = [nameof(Joint.Id), nameof(Joint.Name), nameof(Collider.Group), nameof(AnchoredJoint.Effort), nameof(AnchoredJoint.Speed), nameof(AnchoredJoint.Friction), nameof(AnchoredJoint.Armature), nameof(Joint.Because), nameof(Joint.Closure), nameof(Joint.Exact), nameof(DocumentObject.ExtrasJson)];
+    private static readonly HashSet<string> AboutTheSource = [nameof(Joint.Id), nameof(Joint.Name), nameof(Joint.Part), nameof(Joint.ConnectedPart), nameof(Collider.Group), nameof(AnchoredJoint.Effort), nameof(AnchoredJoint.Speed), nameof(AnchoredJoint.Friction), nameof(AnchoredJoint.Armature), nameof(ConfigurableJoint.Stated), nameof(Joint.Because), nameof(Joint.Closure), nameof(Joint.Exact), nameof(DocumentObject.ExtrasJson)];
 
     // What Unity calls otherwise.
     private static readonly Dictionary<string, string> Names = new() { ["mesh"] = "sharedMesh", ["materials"] = "sharedMaterials", ["material"] = "sharedMaterial", ["linearLock"] = "linearLockX" };

@@ -36,4 +36,7 @@ public abstract record AnchoredJoint : Joint
     /// <summary>Inertia that moves with a coordinate, kg or kg m^2. Neither solver follows it.</summary>
     [Since(1)]
     public double Armature { get; init; }
+
+    /// <summary>What the source states of one coordinate that moves.</summary>
+    internal virtual StatedAxis StatedOf(Coordinate coordinate) => new() { Effort = Effort, Speed = Speed, Friction = Friction, Armature = Armature };
 }

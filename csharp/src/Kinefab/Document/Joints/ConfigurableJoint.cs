@@ -101,5 +101,14 @@ public sealed partial record ConfigurableJoint : AnchoredJoint
     /// <summary>As if the component stood on the connected body.</summary>
     public bool SwapBodies { get; init; }
 
+    /// <summary>
+    /// Effort, speed, friction and armature of each coordinate, where they differ. A coordinate of which something is stated here has
+    /// nothing of the joint's own four.
+    /// </summary>
+    [Since(1)]
+    public StatedAxes Stated { get; init; } = StatedAxes.Default;
+
+    internal override StatedAxis StatedOf(Coordinate coordinate) => Stated[coordinate] is var own && own != StatedAxis.Default ? own : base.StatedOf(coordinate);
+
     private protected override string Describe() => $"ConfigurableJoint {Ends}, x {XMotion}, y {YMotion}, z {ZMotion}, angularX {AngularXMotion}, angularY {AngularYMotion}, angularZ {AngularZMotion}";
 }

@@ -18,6 +18,14 @@ public abstract record Joint : Component
     [Since(1)]
     public string? Name { get; init; }
 
+    /// <summary>Id of the source's part on the own side, where it moves with the own body and another GameObject has the Rigidbody; null: this one.</summary>
+    [Since(1)]
+    public string? Part { get; init; }
+
+    /// <summary>Id of the source's part on the connected side, likewise; null: that of <see cref="ConnectedBody"/>.</summary>
+    [Since(1)]
+    public string? ConnectedPart { get; init; }
+
     /// <summary>False: the source has it and switches it off; it holds nothing, as if it were not there. No joint of Unity's can be so.</summary>
     [Since(1)]
     public bool Enabled { get; init; } = true;

@@ -24,17 +24,20 @@ COORDINATES = ("x", "y", "z", "angularX", "angularY", "angularZ")
 _LINEAR = ("xDrive", "yDrive", "zDrive")
 
 
-def _with_stated(component: Entry, freedom: Freedom, unit: float) -> Freedom:
+def _says(stated: Entry) -> bool:
+    """Whether an entry of a joint or of one of its coordinates states any of what no joint of Unity's has."""
+    return "effort" in stated or "speed" in stated or bool(stated.get("friction") or stated.get("armature"))
+
+
+def _with_stated(stated: Entry, freedom: Freedom, unit: float) -> Freedom:
     """With what the source states beside any drive.  unit: of the coordinate in the scene file, in the model's."""
-    if freedom.motion is Motion.LOCKED or not any(
-        name in component for name in ("effort", "speed", "friction", "armature")
-    ):
+    if freedom.motion is Motion.LOCKED or not _says(stated):
         return freedom
     passive = Passive(
-        friction=float(component.get("friction", 0.0)),
-        armature=float(component.get("armature", 0.0)),
-        effort=float(component.get("effort", math.inf)),
-        speed=unit * float(component.get("speed", math.inf)),
+        friction=float(stated.get("friction", 0.0)),
+        armature=float(stated.get("armature", 0.0)),
+        effort=float(stated.get("effort", math.inf)),
+        speed=unit * float(stated.get("speed", math.inf)),
     )
     return replace(freedom, passive=passive)
 
@@ -90,7 +93,11 @@ def driven(component: Entry, freedoms: tuple[Freedom, ...]) -> tuple[Freedom, ..
                 found[RX + i], component.get(name, {}), sign * float(turn[i]), -sign * spins[i]
             )
     units = [1.0] * RX + [math.radians(1.0)] * RX
-    stated = (_with_stated(component, f, unit) for f, unit in zip(found, units))
+    each: Entry = component.get("stated", {})
+    stated = (
+        _with_stated(own if _says(own := each.get(name, {})) else component, f, unit)
+        for name, f, unit in zip(COORDINATES, found, units)
+    )
     return tuple(_own(component, name, freedom) for name, freedom in zip(COORDINATES, stated))
 
 

@@ -279,10 +279,17 @@ class _Nodes:
         carrier = [None if i == 0 else index_of[node.id] for i, node in enumerate(self.back.scene.nodes)]
         found: list[Joint] = []
         for (index, k), joint in (self.back.joints | self.back.switched_off).items():
-            if APART in getattr(self.objects[index].components[k], "extras", {}):
+            component = self.objects[index].components[k]
+            if APART in getattr(component, "extras", {}):
                 continue
             ends = [(joint.a or 0, joint.frame_a), (joint.b or 0, joint.frame_b)]
-            (a, frame_a), (b, frame_b) = (self._side(carrier[node], frame) for node, frame in ends)
+            own = self.back.node_of[index]
+            parts = [
+                index_of.get(getattr(component, "part" if node == own else "connectedPart", "")) for node, _ in ends
+            ]
+            (a, frame_a), (b, frame_b) = (
+                self._side(carrier[node], part, frame) for (node, frame), part in zip(ends, parts)
+            )
             if a != b:
                 found.append(replace(joint, a=a, b=b, frame_a=frame_a, frame_b=frame_b))
         return found
@@ -307,12 +314,16 @@ class _Nodes:
             for coupling in couplings
         ]
 
-    def _side(self, index: int | None, frame: Pose) -> tuple[int | None, Pose]:
-        if index is None:
+    def _side(self, body: int | None, part: int | None, frame: Pose) -> tuple[int | None, Pose]:
+        """The node of one end of a joint, and the frame in it.  body: the object with the Rigidbody, None for the world.
+        part: the object that is joined, where it is another one that moves with that body."""
+        stands = body is None or body == self.ground
+        if part in self.node_of and self.back.node_of[part] == (0 if body is None else self.back.node_of[body]):
+            from_body = frame if body is None else self.back.poses[body] @ frame
+            return self.node_of[part], self.back.poses[part].inverse() @ from_body
+        if body is None:
             return None, frame
-        if index == self.ground:
-            return None, self.back.poses[index] @ frame
-        return self.node_of[index], frame
+        return (None, self.back.poses[body] @ frame) if stands else (self.node_of[body], frame)
 
     def _clips(self) -> list[AnimationClip]:
         return [
@@ -344,15 +355,13 @@ def _body(components: Sequence[object]) -> Rigidbody | ArticulationBody | None:
 
 
 def _dynamics(body: Rigidbody | ArticulationBody) -> Dynamics:
+    """Damping as Unity has it by itself is none that anybody states."""
+    usual = type(body)(mass=1.0)
+    linear = None if body.linearDamping == usual.linearDamping else body.linearDamping
+    angular = None if body.angularDamping == usual.angularDamping else body.angularDamping
     if isinstance(body, ArticulationBody):
-        return Dynamics(False, body.useGravity, body.linearDamping, body.angularDamping)
-    return Dynamics(
-        body.isKinematic,
-        body.useGravity,
-        body.linearDamping,
-        body.angularDamping,
-        max_angular_velocity=body.maxAngularVelocity,
-    )
+        return Dynamics(False, body.useGravity, linear, angular)
+    return Dynamics(body.isKinematic, body.useGravity, linear, angular, max_angular_velocity=body.maxAngularVelocity)
 
 
 def _surface(material: Material) -> Surface:

@@ -55,6 +55,7 @@ class UnityJoint:
 
     component: without ``connectedBody``.
     coordinates: for each freedom (TX..RZ) that is not locked, how to read it.
+    parts: the nodes that the source joins, the own one first.
     """
 
     source: Joint
@@ -62,6 +63,12 @@ class UnityJoint:
     connected: int | None
     component: MappedJoint
     coordinates: dict[int, UnityCoordinate]
+    parts: tuple[int | None, int | None]
+
+    def beside(self, scene: Scene) -> dict[str, str]:
+        """The component's fields of the parts that others have the Rigidbodies of."""
+        sides = {"part": (self.parts[0], self.owner), "connectedPart": (self.parts[1], self.connected)}
+        return {key: scene.nodes[n].id for key, (n, carrier) in sides.items() if n is not None and n != carrier}
 
 
 def map_joint(
@@ -124,7 +131,8 @@ def map_joint(
         _report_freed(joint, found, shape, component, scene, scene.nodes[owner].id, report)
     else:
         report.kept(feature, joint.where)
-    return UnityJoint(joint, owner, connected, component, _readings(shape, coordinates, placement))
+    parts = (joint.a, joint.b) if placement.on_a else (joint.b, joint.a)
+    return UnityJoint(joint, owner, connected, component, _readings(shape, coordinates, placement), parts)
 
 
 def _why_none(

@@ -5,9 +5,12 @@ from __future__ import annotations
 import math
 from collections.abc import Mapping
 from dataclasses import replace
+from typing import Any
 
 from ...diagnostics import Report
-from ...model import RX, Drive, Freedom, Joint, Motion, Passive
+from ...model import RX, Drive, Freedom, Joint, Motion, Passive, unlocked_of
+from ..scene import StatedAxes, StatedAxis
+from .coordinates import canonical
 from .limits import feature_of
 
 FASTEST_LINK = 100.0
@@ -84,16 +87,20 @@ def unkept_bounds(freedom: Freedom) -> dict[str, float]:
     return {what: value for what, value in most.items() if math.isfinite(value)}
 
 
-def stated_of(joint: Joint) -> dict[str, float]:
-    """Effort, speed, friction and armature as fields of Unity's joint, of those that the source states; none where coordinates
-    that move differ in them, or one turns and another slides."""
-    moving = [(i, f.passive or Passive()) for i, f in enumerate(joint.freedoms) if f.motion is not Motion.LOCKED]
-    stated = {(p.effort, p.speed, p.friction, p.armature) for _, p in moving}
-    if len(stated) != 1 or len({i < RX for i, _ in moving}) != 1:
-        return {}
-    ((effort, speed, friction, armature),) = stated
-    speed = math.degrees(speed) if moving[0][0] >= RX else speed
-    found = {"effort": effort, "speed": speed, "friction": friction, "armature": armature}
+def stated_of(joint: Joint, names: Mapping[int, str]) -> dict[str, Any]:
+    """Effort, speed, friction and armature as fields of Unity's joint, of those that the source states; each coordinate's own where
+    they differ in them, or one turns and another slides.  names: of the component's coordinates, by the freedoms that move."""
+    said = {i: joint.freedoms[i].passive or Passive() for i in names}
+    kinds = {(p.effort, p.speed, p.friction, p.armature, i < RX) for i, p in said.items()}
+    if len(kinds) == 1:
+        return _fields(*next(iter(said.items())))
+    axes = {names[i]: StatedAxis(**_fields(i, passive)) for i, passive in said.items()}
+    return {"stated": StatedAxes(**axes)} if axes else {}
+
+
+def _fields(index: int, passive: Passive) -> dict[str, float]:
+    speed = math.degrees(passive.speed) if index >= RX else passive.speed
+    found = {"effort": passive.effort, "speed": speed, "friction": passive.friction, "armature": passive.armature}
     return {name: value for name, value in found.items() if 0.0 < value <= MOST or (name == "effort" and value == 0.0)}
 
 
@@ -116,8 +123,11 @@ def unbounded(freedom: Freedom) -> bool:
 
 def withdraw_stated(joint: Joint, report: Report) -> None:
     """Take back what ``with_passive_drives`` told of what ``stated_of`` holds."""
-    fields = stated_of(joint)
-    for index in joint.unlocked if fields else ():
+    if all(freedom.passive is None for freedom in joint.freedoms):
+        return
+    shape = canonical(joint)
+    for index in (shape.name_of[i] for i in unlocked_of(shape.freedoms)):
+        fields = _fields(index, joint.freedoms[index].passive or Passive())
         for what, code in (("friction", "JOINT_FRICTION_DROPPED"), ("armature", "JOINT_ARMATURE_DROPPED")):
             if what in fields:
                 report.withdraw(feature_of(joint, what, index), code)

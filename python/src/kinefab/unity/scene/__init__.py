@@ -20,7 +20,14 @@ from .constraint import Constraint, Feature
 from .coupling import Coupling, CouplingTerm, JointCoordinate
 from .game_object import Component, GameObject
 from .ignored_collision import IgnoredCollision
-from .joints.configurable_joint import ConfigurableJoint, JointDrive, SoftJointLimit, SoftJointLimitSpring
+from .joints.configurable_joint import (
+    ConfigurableJoint,
+    JointDrive,
+    SoftJointLimit,
+    SoftJointLimitSpring,
+    StatedAxes,
+    StatedAxis,
+)
 from .joints.fixed_joint import FixedJoint
 from .joints.hinge_joint import HingeJoint, JointLimits, JointMotor, JointSpring
 from .joints.joint import Joint
@@ -75,6 +82,8 @@ __all__ = [
     "Rigidbody",
     "SoftJointLimit",
     "SoftJointLimitSpring",
+    "StatedAxes",
+    "StatedAxis",
     "Source",
     "SphereCollider",
     "Track",

@@ -78,6 +78,48 @@ internal sealed class ContradictionTests
         Assert.That((m.Stops, m.StalledJoints.Count), Is.EqualTo((0, 0)));
     }
 
+    /// <summary>A spring of another joint is no bound of a drive without limit of force, however stiff it is.</summary>
+    [TestCase(5e3)]
+    [TestCase(5e7)]
+    public void Drive_AgainstASpring_ArrivesAndHoldsIt(double stiffness)
+    {
+        var body = new Rigidbody { Mass = 1, InertiaTensor = new Vector3d(0.01, 0.02, 0.03), AngularDamping = 0, MaxAngularVelocity = 100 };
+        var sprung = new HingeJoint { Axis = Vector3d.UnitZ, UseSpring = true, Spring = new JointSpring { Spring = stiffness, Damper = 1 } };
+        GameObject own = new() { Id = "own", Name = "own", Components = [body, sprung, new HingeJoint { Axis = Vector3d.UnitZ }] };
+        World world = World.Create(SmallScene.Validate(new SceneDocument { GameObjects = [own] }), SolverKind.Exact);
+        world.Joints[1].DriveTo(Coordinate.Angle, 40);
+
+        for (int i = 0; i < 250; i++)
+        {
+            world.Step(0.02);
+        }
+
+        Assert.That(world.Joints[0].Coordinate(Coordinate.Angle), Is.EqualTo(40).Within(1e-6));
+        Assert.That((world.Stops, world.Findings.Diagnostics.Count), Is.EqualTo((0, 0)));
+    }
+
+    /// <summary>A motor without limit of force stops and turns round what spins.</summary>
+    [Test]
+    public void Motor_OfWhatSpins_TurnsItRound()
+    {
+        var b = new MechanismBuilder();
+        int wheel = b.Bar(Vector3d.Zero, Vector3d.UnitX, 5);
+        RevoluteJoint axle = b.Hinge(JointModel.World, wheel, Vector3d.Zero, Vector3d.UnitZ);
+        Motor(axle, -70, float.MaxValue);
+        MultibodySystem m = b.Build();
+        m.Bodies.AngularVelocities[wheel] = 250 * Vector3d.UnitZ;
+        m.Bodies.LinearVelocities[wheel] = Vector3d.Cross(m.Bodies.AngularVelocities[wheel], 0.5 * Vector3d.UnitX);
+        var solver = new RattleSolver(m);
+
+        for (int i = 0; i < 5; i++)
+        {
+            solver.Step(Dt);
+            Assert.That(m.StalledJoints, Is.Empty);
+        }
+
+        Assert.That(m.Bodies.AngularVelocities[wheel].Z, Is.EqualTo(-70).Within(1e-3));
+    }
+
     [Test]
     public void Motors_AgainstEachOtherAndALimit_AreNamed()
     {

@@ -204,18 +204,17 @@ internal struct ScalarRow
     /// <param name="h">Step, s.</param>
     public void SetMotion(double h) => EndError = StartError / Growth(h);
 
+    /// <summary>The speed that a drive is asked for, 1/s of its C.</summary>
+    /// <param name="h">Step, s.</param>
+    public readonly double AskedSpeed(double h) => Kind == RowKind.Motion ? (EndError - StartError) / h : Built.VelocityTarget;
+
     /// <summary>
     /// A force without limit ends at what no mechanism needs, so that what the drive cannot move, as a limit, a dead point or another such drive, has
     /// a finite answer: the drive stalls.
     /// </summary>
-    /// <param name="h">Step, s.</param>
-    /// <param name="inertia">The most that the drive may have to move, kg or kg m^2.</param>
-    public void BoundForce(double h, double inertia)
+    /// <param name="impulse">The most that it may need, N s or N m s.</param>
+    public void BoundForce(double impulse)
     {
-        const double mostAcceleration = 1e3;
-        const double mostSpeeds = 4;
-        double speed = Kind == RowKind.Motion ? (EndError - StartError) / h : Built.VelocityTarget;
-        double impulse = inertia * (mostSpeeds * Math.Abs(speed) + mostAcceleration * h);
         Low = Built.Minimum < -Endless ? Math.Max(Low, -impulse) : Low;
         High = Built.Maximum > Endless ? Math.Min(High, impulse) : High;
     }

@@ -90,7 +90,7 @@ internal sealed partial class ActiveSet<V>
 
             if (scalar.Kind is RowKind.SpeedMotor or RowKind.Motion && scalar.IsEndless)
             {
-                scalar.BoundForce(h, IslandInertia(scalar));
+                scalar.BoundForce(MostNeeded(scalar, h));
             }
 
             if (scalar.Kind == RowKind.Spring)
@@ -342,26 +342,6 @@ internal sealed partial class ActiveSet<V>
                 _ => product[k] + vector[k] / (isDrift ? scalar.Theta * scalar.ImplicitDamping : scalar.CorrectionGain),
             };
         }
-    }
-
-    // Of all bodies as one, their mass, or their largest moments about the joint's frame; much more where gears may make it so.
-    private double IslandInertia(in ScalarRow scalar)
-    {
-        const double mostByGears = 1e3;
-        bool isAngular = scalar.Built.Has(RowFlags.Angular);
-        Vector3d anchor = LaneTransfer<V>.ReadPose(_batch, _batch.Shape.Blocks[scalar.Block].Bodies[0], 0).Point(_batch.Models[scalar.Block]!.Frame0.Position);
-        double sum = 0;
-        for (int body = 0; body < _batch.Shape.MovingBodies; body++)
-        {
-            int o = LaneRecords<V>.Body(body, 0);
-            double mass = Inverse(_batch.Bodies[o + BodyLanes.InverseMass]);
-            double square = (LaneTransfer<V>.ReadVector(_batch.Bodies, o + BodyLanes.EndX) - anchor).LengthSquared;
-            sum += isAngular ? mass * square + Inverse(_batch.Bodies[o + BodyLanes.LeastInverseInertia]) : mass;
-        }
-
-        return _batch.Shape.HasCouplings ? mostByGears * sum : sum;
-
-        static double Inverse(double number) => number > 0 ? 1 / number : 0;
     }
 
     private double StartSpeed(in ScalarRow scalar) => Impulses<V>.Speed(_batch, scalar.Block, scalar.Built);

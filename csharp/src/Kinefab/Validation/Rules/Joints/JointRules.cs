@@ -1,4 +1,5 @@
 using System;
+using System.Collections.Generic;
 using Kinefab.Diagnostics;
 using Kinefab.Document;
 using Kinefab.Json;
@@ -22,23 +23,17 @@ internal static class JointRules
         NumberRules.Finite(at, "anchor", joint.Anchor);
         NumberRules.Finite(at, "axis", joint.Axis);
         NumberRules.Finite(at, "connectedAnchor", joint.ConnectedAnchor);
-        NumberRules.NotNegativeOrUnlimited(at, "effort", joint.Effort);
-        NumberRules.PositiveOrUnlimited(at, "speed", joint.Speed);
-        NumberRules.NotNegative(at, "friction", joint.Friction);
-        NumberRules.NotNegative(at, "armature", joint.Armature);
+        StatedNumbers(joint.StatedOf(Coordinate.Angle), "", at);
+        foreach ((string field, StatedAxis stated) in Axes(joint))
+            StatedNumbers(stated, field + "/", at);
     }
 
     /// <summary>What a source states of a joint and no solver here, nor Unity's, has a place for.</summary>
     internal static void Stated(AnchoredJoint joint, in Place at)
     {
-        if (joint.Effort < double.PositiveInfinity)
-            at.Report("effort", DiagnosticCodes.JointStatedUnfollowed, ("field", "effort"));
-        if (joint.Speed < double.PositiveInfinity)
-            at.Report("speed", DiagnosticCodes.JointStatedUnfollowed, ("field", "speed"));
-        if (joint.Friction > 0)
-            at.Report("friction", DiagnosticCodes.JointStatedUnfollowed, ("field", "friction"));
-        if (joint.Armature > 0)
-            at.Report("armature", DiagnosticCodes.JointStatedUnfollowed, ("field", "armature"));
+        StatedUnfollowed(joint.StatedOf(Coordinate.Angle), "", at);
+        foreach ((string field, StatedAxis stated) in Axes(joint))
+            StatedUnfollowed(stated, field + "/", at);
     }
 
     /// <summary>Unity adds a Rigidbody of its own to a joint without one, with mass 1 and guessed inertia.</summary>
@@ -74,5 +69,33 @@ internal static class JointRules
     {
         if (joint.Axis == Vector3d.Zero)
             at.Report("axis", DiagnosticCodes.JointAxisZero);
+    }
+
+    private static IEnumerable<(string Field, StatedAxis Stated)> Axes(AnchoredJoint joint)
+    {
+        if (joint is not ConfigurableJoint configurable || ReferenceEquals(configurable.Stated, StatedAxes.Default))
+            yield break;
+        for (Coordinate axis = Coordinate.X; axis <= Coordinate.AngularZ; axis++)
+            yield return ("stated/" + CoordinateWords.Table.WordOf(axis), configurable.Stated[axis]);
+    }
+
+    private static void StatedNumbers(StatedAxis stated, string prefix, in Place at)
+    {
+        NumberRules.NotNegativeOrUnlimited(at, prefix + "effort", stated.Effort);
+        NumberRules.PositiveOrUnlimited(at, prefix + "speed", stated.Speed);
+        NumberRules.NotNegative(at, prefix + "friction", stated.Friction);
+        NumberRules.NotNegative(at, prefix + "armature", stated.Armature);
+    }
+
+    private static void StatedUnfollowed(StatedAxis stated, string prefix, in Place at)
+    {
+        if (stated.Effort is >= 0 and < double.PositiveInfinity)
+            at.Report(prefix + "effort", DiagnosticCodes.JointStatedUnfollowed, ("field", "effort"));
+        if (stated.Speed is > 0 and < double.PositiveInfinity)
+            at.Report(prefix + "speed", DiagnosticCodes.JointStatedUnfollowed, ("field", "speed"));
+        if (stated.Friction > 0)
+            at.Report(prefix + "friction", DiagnosticCodes.JointStatedUnfollowed, ("field", "friction"));
+        if (stated.Armature > 0)
+            at.Report(prefix + "armature", DiagnosticCodes.JointStatedUnfollowed, ("field", "armature"));
     }
 }

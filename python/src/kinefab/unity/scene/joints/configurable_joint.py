@@ -32,6 +32,28 @@ class JointDrive:
     useAcceleration: bool = False
 
 
+@dataclass(frozen=True, slots=True)
+class StatedAxis:
+    """What the source states of one coordinate, as ``AnchoredJoint`` has it for all of them."""
+
+    effort: float = math.inf
+    speed: float = math.inf
+    friction: float = 0.0
+    armature: float = 0.0
+
+
+@dataclass(frozen=True, slots=True)
+class StatedAxes:
+    """Of a joint whose coordinates differ in it, each one's own."""
+
+    x: StatedAxis = StatedAxis()
+    y: StatedAxis = StatedAxis()
+    z: StatedAxis = StatedAxis()
+    angularX: StatedAxis = StatedAxis()
+    angularY: StatedAxis = StatedAxis()
+    angularZ: StatedAxis = StatedAxis()
+
+
 APART = "apart"
 """Of the extras of a joint that holds nothing and only keeps two bodies from colliding: the source's rule."""
 
@@ -77,6 +99,7 @@ class ConfigurableJoint(AnchoredJoint):
     projectionAngle: float = 180.0
     configuredInWorldSpace: bool = False
     swapBodies: bool = False
+    stated: StatedAxes = StatedAxes()
 
     @property
     def keeps_apart(self) -> bool:

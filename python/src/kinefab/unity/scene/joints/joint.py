@@ -19,6 +19,7 @@ class Joint:
     because: ids of the source's constraints or joints that it comes from.  closure: it closes a loop.
     exact: it moves just as the source's.  enabled: False where it is switched off and holds nothing, which no joint of Unity's can be.
     id: of the joint in the source, "" for one that holds a rigid group together.  name: the user's own.
+    part, connectedPart: ids of the parts that the source joins, "" where they are the objects that have the Rigidbodies.
     """
 
     connectedBody: int | None = None
@@ -33,6 +34,8 @@ class Joint:
     exact: bool = True
     id: str = ""
     name: str = ""
+    part: str = ""
+    connectedPart: str = ""
     enabled: bool = True
     extras: Mapping[str, object] = field(default_factory=dict[str, object])
 

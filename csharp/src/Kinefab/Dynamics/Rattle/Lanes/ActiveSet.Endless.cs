@@ -1,0 +1,76 @@
+using System;
+using Kinefab.Joints;
+using Kinefab.Numerics;
+
+namespace Kinefab.Dynamics.Rattle;
+
+/// <summary>How much a drive without limit of force may need.</summary>
+internal sealed partial class ActiveSet<V>
+{
+    // By how much the levers of a loop, and gears, may multiply what reaches a drive. More makes the answer of a drive that stalls so large that steps fail.
+    private const double MostByLevers = 30;
+    private const double MostByGears = 1e3;
+
+    /// <summary>
+    /// The most impulse that a drive can need in a step, whatever way its island takes: to start, stop or turn round all bodies as one, and to hold out
+    /// against springs, other drives and loads. Of a chain no more reaches it; levers and gears may multiply it.
+    /// </summary>
+    /// <param name="drive">Its row.</param>
+    /// <param name="h">Step, s.</param>
+    private double MostNeeded(in ScalarRow drive, double h)
+    {
+        const double mostAcceleration = 1e3;
+        const double margin = 4;
+        bool isAngular = drive.Built.Has(RowFlags.Angular);
+        double speed = Math.Abs(drive.AskedSpeed(h));
+        double levers = _batch.Shape.HasLoops ? MostByLevers : 1;
+        Vector3d anchor = LaneTransfer<V>.ReadPose(_batch, _batch.Shape.Blocks[drive.Block].Bodies[0], 0).Point(_batch.Models[drive.Block]!.Frame0.Position);
+        double reach = 0, mass = 0, moments = 0, momentum = 0, load = 0;
+        for (int body = 0; body < _batch.Shape.MovingBodies; body++)
+        {
+            int o = LaneRecords<V>.Body(body, 0);
+            double own = Inverse(_batch.Bodies[o + BodyLanes.InverseMass]);
+            double arm = Length(o + BodyLanes.EndX, anchor);
+            double weight = isAngular ? own * arm : own;
+            reach = Math.Max(reach, arm);
+            mass += own;
+            moments += own * arm * arm + Inverse(_batch.Bodies[o + BodyLanes.LeastInverseInertia]);
+            momentum += weight * Length(o + BodyLanes.V) + (isAngular ? Length(o + BodyLanes.L) : 0);
+            load += weight * Length(o + BodyLanes.Acceleration) + (isAngular ? Length(o + BodyLanes.Torque) : 0);
+        }
+
+        double inertia = isAngular ? moments : levers > 1 && reach > 0 ? mass + levers * moments / (reach * reach) : mass;
+        double impulse = margin * (inertia * speed + momentum + (load + levers * Opposed(drive, h, speed, reach)) * h) + inertia * mostAcceleration * h;
+        return _batch.Shape.HasCouplings ? MostByGears * impulse : impulse;
+
+        double Length(int number, Vector3d from = default) => (LaneTransfer<V>.ReadVector(_batch.Bodies, number) - from).Length;
+    }
+
+    // What springs and the drives whose force has a limit may hold against a drive, N or N m of its own.
+    private double Opposed(in ScalarRow drive, double h, double speed, double reach)
+    {
+        const double margin = 4;
+        double sum = 0;
+        for (int i = 0; i < _rows.Length; i++)
+        {
+            ref ScalarRow other = ref _rows[i];
+            bool isSpring = other.Built.Has(RowFlags.Spring);
+            if (!other.IsActive || other.Index == drive.Index || !(isSpring || (other.Built.Has(RowFlags.Drive) && !other.IsEndless)))
+            {
+                continue;
+            }
+
+            double gain = other.Built.Has(RowFlags.AccelerationSpring) ? Inverse(Response(other)) : 1;
+            double way = Math.Abs(other.Built.GeometricError) + margin * h * speed;
+            double force = isSpring
+                ? gain * (other.Built.Stiffness * way + other.Built.Damping * (Math.Abs(other.StartSpeed) + margin * speed))
+                : Math.Max(other.Built.Maximum, -other.Built.Minimum);
+            bool turns = other.Built.Has(RowFlags.Angular), isAngular = drive.Built.Has(RowFlags.Angular);
+            sum += turns == isAngular || reach == 0 ? force : turns ? force / reach : force * reach;
+        }
+
+        return sum;
+    }
+
+    private static double Inverse(double number) => number > 0 ? 1 / number : 0;
+}

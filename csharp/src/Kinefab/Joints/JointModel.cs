@@ -80,6 +80,14 @@ internal abstract class JointModel
         LastTwist = SwingTwist.Nearest(SwingTwist.TwistAngle(f.Relative.Rotation), LastTwist);
     }
 
+    /// <summary>Whether the solver counted the angle about X part by part through the last step, so that <see cref="LastTwist"/> is where it stands.</summary>
+    /// <param name="twist">The angle at the pose, less whole turns, radians.</param>
+    public bool HasCounted(double twist)
+    {
+        const double rounding = 1e-6;
+        return LimitsFromAfar && Math.Abs(SwingTwist.Nearest(twist, LastTwist) - LastTwist) <= rounding;
+    }
+
     /// <summary>A copy of the joint between other bodies.</summary>
     public JointModel Between(int body0, int body1)
     {

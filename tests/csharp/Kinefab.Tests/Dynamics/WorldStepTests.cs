@@ -26,6 +26,46 @@ public sealed class WorldStepTests
         Assert.That(hinge.Coordinate(Coordinate.Angle), Is.EqualTo(hinge.UnwrappedAngle));
     }
 
+    /// <summary>A body that its stops throw to and fro within a step: where its speed at the end of the step would lead to is not where it is.</summary>
+    [TestCase(false)]
+    [TestCase(true)]
+    public void Coordinate_BetweenStopsThatThrowItBack_IsCountedAsItMoved(bool isTwist)
+    {
+        const double bounciness = 1, low = -10, high = 80, most = 100;
+        Kinefab.Document.Joint joint = isTwist
+            ? new ConfigurableJoint
+            {
+                Axis = Vector3d.UnitZ,
+                SecondaryAxis = Vector3d.UnitX,
+                XMotion = ConfigurableJointMotion.Locked,
+                YMotion = ConfigurableJointMotion.Locked,
+                ZMotion = ConfigurableJointMotion.Locked,
+                AngularYMotion = ConfigurableJointMotion.Locked,
+                AngularZMotion = ConfigurableJointMotion.Locked,
+                AngularXMotion = ConfigurableJointMotion.Limited,
+                LowAngularXLimit = new SoftJointLimit { Limit = -high, Bounciness = bounciness },
+                HighAngularXLimit = new SoftJointLimit { Limit = -low, Bounciness = bounciness },
+            }
+            : new HingeJoint
+            {
+                Axis = Vector3d.UnitZ,
+                UseLimits = true,
+                Limits = new JointLimits { Min = low, Max = high, Bounciness = bounciness },
+            };
+        var body = new Rigidbody { Mass = 1, InertiaTensor = new Vector3d(0.01, 0.01, 0.01), AngularDamping = 0, MaxAngularVelocity = 1e5, UseGravity = false };
+        GameObject own = new() { Id = "own", Name = "own", Components = [body, joint] };
+        World world = World.Create(SmallScene.Validate(new SceneDocument { GameObjects = [own] }), SolverKind.Exact);
+        world.Bodies[0].AngularVelocity = 500 * Vector3d.UnitZ;
+
+        for (int i = 0; i < 60; i++)
+        {
+            world.Step(1.0 / 60);
+            double angle = world.Joints[0].Coordinate(isTwist ? Coordinate.AngularX : Coordinate.Angle);
+            Assert.That(angle, Is.InRange(low - 1e-3, high + 1e-3), $"step {i}");
+            Assert.That(world.Bodies[0].AngularVelocity.Length, Is.GreaterThan(most));
+        }
+    }
+
     [Test]
     public void CurrentForce_HangingBody_IsItsWeight()
     {

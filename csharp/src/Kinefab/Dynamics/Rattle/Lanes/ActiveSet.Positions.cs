@@ -54,10 +54,17 @@ internal sealed partial class ActiveSet<V>
 
     /// <summary>
     /// Whether the end of the drift passed a hard limit that it was to hold: one that had no row at its start, of a distance or cone in the
-    /// middle; or one whose row no impulse could hold.
+    /// middle; one whose row no impulse could hold; or one of an angle that turned so far that no pose tells how often it went round.
     /// </summary>
-    public bool HasMissedEvent(double tolerance)
+    /// <param name="h">Length of the drift, s.</param>
+    /// <param name="tolerance">Largest C, m or rad.</param>
+    public bool HasMissedEvent(double h, double tolerance)
     {
+        if (HasTurnedFar(h))
+        {
+            return true;
+        }
+
         for (int i = 0; i < _rows.Length; i++)
         {
             ref ScalarRow scalar = ref _rows[i];
@@ -69,6 +76,22 @@ internal sealed partial class ActiveSet<V>
         }
 
         return false;
+    }
+
+    /// <summary>Whether an angle with limits turned so far in the drift that no pose tells how often it went round.</summary>
+    /// <param name="h">Length of the drift, s.</param>
+    public bool HasTurnedFar(double h)
+    {
+        const double mostTurn = 2.5;
+        bool isFar = false;
+        for (int i = 0; i < _rows.Length && !isFar; i++)
+        {
+            ref ScalarRow scalar = ref _rows[i];
+            bool isAngle = scalar.IsActive && scalar.HasEnd && scalar.Built.Has(RowFlags.Limit) && scalar.Built.Has(RowFlags.Angular);
+            isFar = isAngle && !(Math.Abs(DriftSpeed(scalar)) * h < mostTurn);
+        }
+
+        return isFar;
     }
 
     /// <summary>Gives the momenta what the last <see cref="UpdatePositions"/> changed of the impulses.</summary>

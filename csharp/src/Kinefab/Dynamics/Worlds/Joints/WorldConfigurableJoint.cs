@@ -168,7 +168,9 @@ public sealed class WorldConfigurableJoint : WorldJoint
         for (int i = FirstAngle; i < Axes; i++)
         {
             double reached = Evaluate(i, _unwrapped[i], out double speed);
-            _unwrapped[i] = SwingTwist.Nearest(reached, _unwrapped[i] + dt * ((1 - endShare) * _speeds[i] + endShare * speed));
+            bool isCounted = i == FirstAngle && Solved.HasCounted(_sign * reached);
+            double near = isCounted ? _sign * Solved.LastTwist : _unwrapped[i] + dt * ((1 - endShare) * _speeds[i] + endShare * speed);
+            _unwrapped[i] = SwingTwist.Nearest(reached, near);
             _speeds[i] = speed;
         }
 

@@ -110,7 +110,9 @@ public sealed class WorldHingeJoint : WorldJoint
     internal override void AfterStep(double dt, double endShare)
     {
         double speed = Velocity / Degrees;
-        _unwrapped = SwingTwist.Nearest(Wrapped(), _unwrapped + dt * ((1 - endShare) * _speed + endShare * speed));
+        double angle = Wrapped();
+        double near = Solved.HasCounted(-angle) ? -Solved.LastTwist : _unwrapped + dt * ((1 - endShare) * _speed + endShare * speed);
+        _unwrapped = SwingTwist.Nearest(angle, near);
         _speed = speed;
         Solved.LastTwist = -_unwrapped;
     }

@@ -115,7 +115,8 @@ public abstract class WorldJoint
     }
 
     /// <summary>
-    /// Called when the joint has been moved by a step: notes its angles, each the nearest to where it was and the way that its speeds lead.
+    /// Called when the joint has been moved by a step: notes its angles: as the solver counted them, else each the nearest to where it was and the
+    /// way that its speeds lead.
     /// </summary>
     /// <param name="dt">Step, s.</param>
     /// <param name="endShare">How much of the way is the end speed's, the rest is the start speed's: all in symplectic Euler, half in a step of second order.</param>

@@ -11,6 +11,9 @@ internal sealed partial class ActiveSet<V>
     private const double MostByLevers = 30;
     private const double MostByGears = 1e3;
 
+    // What is reckoned of speeds and loads, this many times.
+    private const double Margin = 4;
+
     /// <summary>
     /// The most impulse that a drive can need in a step, whatever way its island takes: to start, stop or turn round all bodies as one, and to hold out
     /// against springs, other drives and loads. Of a chain no more reaches it; levers and gears may multiply it.
@@ -20,7 +23,6 @@ internal sealed partial class ActiveSet<V>
     private double MostNeeded(in ScalarRow drive, double h)
     {
         const double mostAcceleration = 1e3;
-        const double margin = 4;
         bool isAngular = drive.Built.Has(RowFlags.Angular);
         double speed = Math.Abs(drive.AskedSpeed(h));
         double levers = _batch.Shape.HasLoops ? MostByLevers : 1;
@@ -40,7 +42,7 @@ internal sealed partial class ActiveSet<V>
         }
 
         double inertia = isAngular ? moments : levers > 1 && reach > 0 ? mass + levers * moments / (reach * reach) : mass;
-        double impulse = margin * (inertia * speed + momentum + (load + levers * Opposed(drive, h, speed, reach)) * h) + inertia * mostAcceleration * h;
+        double impulse = Margin * (inertia * speed + momentum + (load + levers * Opposed(drive, h, speed, reach)) * h) + inertia * mostAcceleration * h;
         return _batch.Shape.HasCouplings ? MostByGears * impulse : impulse;
 
         double Length(int number, Vector3d from = default) => (LaneTransfer<V>.ReadVector(_batch.Bodies, number) - from).Length;
@@ -49,7 +51,6 @@ internal sealed partial class ActiveSet<V>
     // What springs and the drives whose force has a limit may hold against a drive, N or N m of its own.
     private double Opposed(in ScalarRow drive, double h, double speed, double reach)
     {
-        const double margin = 4;
         double sum = 0;
         for (int i = 0; i < _rows.Length; i++)
         {
@@ -61,9 +62,9 @@ internal sealed partial class ActiveSet<V>
             }
 
             double gain = other.Built.Has(RowFlags.AccelerationSpring) ? Inverse(Response(other)) : 1;
-            double way = Math.Abs(other.Built.GeometricError) + margin * h * speed;
+            double way = Math.Abs(other.Built.GeometricError) + Margin * h * speed;
             double force = isSpring
-                ? gain * (other.Built.Stiffness * way + other.Built.Damping * (Math.Abs(other.StartSpeed) + margin * speed))
+                ? gain * (other.Built.Stiffness * way + other.Built.Damping * (Math.Abs(other.StartSpeed) + Margin * speed))
                 : Math.Max(other.Built.Maximum, -other.Built.Minimum);
             bool turns = other.Built.Has(RowFlags.Angular), isAngular = drive.Built.Has(RowFlags.Angular);
             sum += turns == isAngular || reach == 0 ? force : turns ? force / reach : force * reach;

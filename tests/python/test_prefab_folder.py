@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 import os
+import shutil
 import signal
 import subprocess
 import sys
 import tarfile
 import threading
-import time
 from dataclasses import replace
+from itertools import count
 from pathlib import Path
 
 import kinefab
@@ -194,44 +195,62 @@ def test_a_failure_on_the_way_leaves_the_old_set(tmp_path, monkeypatch):
 
 
 WRITER = """
+import os
+import signal
 import sys
-import tarfile
 sys.path.insert(0, {tests!r})
 import kinefab, test_prefab_folder
-print("ready", flush=True)
-sys.stdin.readline()
-kinefab.export(test_prefab_folder.box_scene("Base", *"ABCDEFGH", size=0.2), {target!r})
+scene = test_prefab_folder.box_scene("Base", *"AB", size=0.2)
+touches = "open", "os.mkdir", "os.rename", "os.link", "os.remove", "os.rmdir", "shutil.rmtree", "ctypes.dlopen"
+for line in sys.stdin:
+    left = int(line)
+    child = os.fork()
+    if child == 0:
+        def strike(event, arguments):
+            global left
+            if event in touches:
+                left -= 1
+                if left < 0:
+                    os.kill(os.getpid(), signal.SIGKILL)
+        sys.addaudithook(strike)
+        kinefab.export(scene, {target!r})
+        os._exit(0)
+    print(os.waitpid(child, 0)[1], flush=True)
 """
+"""Exports once for each line, and is killed before it touches the file system as often as the line says and once more."""
 
 
 @pytest.mark.posix
 @pytest.mark.parametrize("suffix", [".prefab", ".unitypackage"])
 def test_killed_at_any_moment_the_old_set_or_the_new_one_is_there(tmp_path, suffix):
-    target = tmp_path / f"Robot{suffix}"
-    kinefab.export(box_scene("Base", *"ABCDEFGH", size=0.2), target)
-    new = files(tmp_path)
+    place, kept = tmp_path / "place", tmp_path / "kept"
+    place.mkdir()
+    target = place / f"Robot{suffix}"
+    kinefab.export(box_scene("Base", *"AB", size=0.2), target)
+    new = files(place)
     kinefab.export(box_scene("Base"), target)
-    old = files(tmp_path)
+    old = files(place)
     assert old != new
+    place.rename(kept)
+    seen: set[str] = set()
     code = WRITER.format(tests=str(Path(__file__).parent), target=str(target))
-    for k in range(6):
-        writer = subprocess.Popen([sys.executable, "-c", code], stdin=subprocess.PIPE, stdout=subprocess.PIPE)
-        writer.stdout.readline()
-        writer.stdin.write(b"\n")
-        writer.stdin.flush()
-        time.sleep(0.04 * (k + 1))
-        writer.send_signal(signal.SIGKILL)
-        writer.communicate()
-        there = {name: data for name, data in files(tmp_path).items() if not name.startswith(".")}
-        # Between the folder's exchange and the prefab's rename the old prefab stands over the assets of both.
-        between = (
-            suffix == ".prefab"
-            and there["Robot.prefab"] == old["Robot.prefab"]
-            and old.keys() <= there.keys()
-        )
-        assert there in (old, new) or between
-    kinefab.export(box_scene("Base"), target)
-    assert files(tmp_path) == old and hidden(tmp_path) == []
+    command = [sys.executable, "-c", code]
+    with subprocess.Popen(command, stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True) as writer:
+        for touch in count():
+            shutil.copytree(kept, place)
+            print(touch, file=writer.stdin, flush=True)
+            status = int(writer.stdout.readline())
+            there = {name: data for name, data in files(place).items() if "/." not in f"/{name}"}
+            # Between the folder's exchange and the prefab's rename the old prefab stands over the assets of both.
+            between = suffix == ".prefab" and there == {**new, "Robot.prefab": old["Robot.prefab"]}
+            seen.add("old" if there == old else "new" if there == new else "between" if between else "neither")
+            kinefab.export(box_scene("Base"), target)
+            assert files(place) == old and hidden(place) == []
+            shutil.rmtree(place)
+            if status == 0:
+                break
+            assert os.WTERMSIG(status) == signal.SIGKILL
+    assert seen == {"old", "new", "between"} - ({"between"} if suffix == ".unitypackage" else set())
 
 
 @pytest.mark.parametrize(

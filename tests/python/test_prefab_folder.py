@@ -201,6 +201,7 @@ import sys
 sys.path.insert(0, {tests!r})
 import kinefab, test_prefab_folder
 scene = test_prefab_folder.box_scene("Base", *"AB", size=0.2)
+kinefab.export(scene, {elsewhere!r})  # what is imported late is imported now
 touches = "open", "os.mkdir", "os.rename", "os.link", "os.remove", "os.rmdir", "shutil.rmtree", "ctypes.dlopen"
 for line in sys.stdin:
     left = int(line)
@@ -223,8 +224,9 @@ for line in sys.stdin:
 @pytest.mark.posix
 @pytest.mark.parametrize("suffix", [".prefab", ".unitypackage"])
 def test_killed_at_any_moment_the_old_set_or_the_new_one_is_there(tmp_path, suffix):
-    place, kept = tmp_path / "place", tmp_path / "kept"
+    place, kept, elsewhere = (tmp_path / name for name in ("place", "kept", "elsewhere"))
     place.mkdir()
+    elsewhere.mkdir()
     target = place / f"Robot{suffix}"
     kinefab.export(box_scene("Base", *"AB", size=0.2), target)
     new = files(place)
@@ -233,7 +235,9 @@ def test_killed_at_any_moment_the_old_set_or_the_new_one_is_there(tmp_path, suff
     assert old != new
     place.rename(kept)
     seen: set[str] = set()
-    code = WRITER.format(tests=str(Path(__file__).parent), target=str(target))
+    code = WRITER.format(
+        tests=str(Path(__file__).parent), elsewhere=str(elsewhere / target.name), target=str(target)
+    )
     command = [sys.executable, "-c", code]
     with subprocess.Popen(command, stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True) as writer:
         for touch in count():

@@ -297,9 +297,43 @@ internal sealed class D6Joint : JointModel
         if (twist)
         {
             // PhysX's row is not the gradient of its angle while the joint swings: what holds by it gives energy and drifts.
-            Vector3d gradient = LimitsFromAfar ? SwingTwist.TwistGradient(f.Axis0(0), x1) : x1;
-            writer.AngleLimits(gradient, Followed(SwingTwist.TwistAngle(parts.Twist)), TwistLimit.Lower, TwistLimit.Upper, TwistLimit.Response);
+            Vector3d gradient = !LimitsFromAfar ? x1 : HasCardanTwist ? CardanGradient(f) : SwingTwist.TwistGradient(f.Axis0(0), x1);
+            writer.AngleLimits(gradient, Followed(Twisted(f)), TwistLimit.Lower, TwistLimit.Upper, TwistLimit.Response);
         }
+    }
+
+    // Where one swing is locked and the other is not, frame 1 has turned about its X from the axis that stays square to that X: the same angle as the
+    // twist, but known at a swing of half a turn too.
+    private bool HasCardanTwist => LimitsFromAfar && (Swing(Swing1) == AxisMotion.Locked) != (Swing(Swing2) == AxisMotion.Locked);
+
+    /// <inheritdoc/>
+    private protected override double Twisted(in JointFrames f)
+    {
+        if (!HasCardanTwist)
+        {
+            return base.Twisted(f);
+        }
+
+        Cardan(f, out _, out _, out double sine, out double cosine);
+        return Trigonometry.Atan2(sine, cosine);
+    }
+
+    private Vector3d CardanGradient(in JointFrames f)
+    {
+        Vector3d axis = Cardan(f, out Vector3d sineAxis, out Vector3d cosineAxis, out double sine, out double cosine);
+        return Vector3d.Cross(sineAxis * cosine - cosineAxis * sine, axis) * (1 / (sine * sine + cosine * cosine));
+    }
+
+    // The axis of frame 0 that stays square to X1, and its components along axes of frame 1.
+    private Vector3d Cardan(in JointFrames f, out Vector3d sineAxis, out Vector3d cosineAxis, out double sine, out double cosine)
+    {
+        f.Axes1(out _, out Vector3d y1, out Vector3d z1);
+        bool isZ = Swing(Swing1) == AxisMotion.Locked;
+        Vector3d axis = f.Axis0(isZ ? 2 : 1);
+        (sineAxis, cosineAxis) = isZ ? (y1, z1) : (-z1, y1);
+        sine = Vector3d.Dot(axis, sineAxis);
+        cosine = Vector3d.Dot(axis, cosineAxis);
+        return axis;
     }
 
     private static void Elevation(ref RowWriter writer, Vector3d axis, double sine, double limit, in LimitResponse response) =>

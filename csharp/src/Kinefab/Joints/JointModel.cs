@@ -77,7 +77,7 @@ internal abstract class JointModel
     public void FinishTwist(in Pose body0, in Pose body1)
     {
         FramesAt(body0, body1, out JointFrames f);
-        LastTwist = SwingTwist.Nearest(SwingTwist.TwistAngle(f.Relative.Rotation), LastTwist);
+        LastTwist = SwingTwist.Nearest(Twisted(f), LastTwist);
     }
 
     /// <summary>Whether the solver counted the angle about X part by part through the last step, so that <see cref="LastTwist"/> is where it stands.</summary>
@@ -140,6 +140,9 @@ internal abstract class JointModel
         Span<ConstraintRow> rows = stackalloc ConstraintRow[MaxRows];
         return new RowLayout(0, 0, Prepare(Pose.Identity, Pose.Identity, rows), 0, false);
     }
+
+    /// <summary>The angle about X at a pose, less whole turns, radians.</summary>
+    private protected virtual double Twisted(in JointFrames f) => SwingTwist.TwistAngle(f.Relative.Rotation);
 
     /// <summary>An angle about X as Prepare counts it.</summary>
     private protected double Followed(double twist) => LimitsFromAfar ? SwingTwist.Nearest(twist, LastTwist) : twist;

@@ -93,22 +93,21 @@ internal sealed class RevoluteJoint : JointModel
 
         // Cdot = (w1 - w0).X0 = MotorVelocity, torque within the limit; freeSpin takes away the braking side.
         // Source: ExtRevoluteJoint.cpp, RevoluteJointSolverPrep.
-        Vector3d axis = f.Axis0(0);
         if (MotorEnabled)
         {
             double minimum = MotorFreeSpin && MotorVelocity > 0 ? 0 : -MotorForceLimit;
             double maximum = MotorFreeSpin && MotorVelocity < 0 ? 0 : MotorForceLimit;
-            writer.Motor(axis, MotorVelocity, minimum, maximum);
+            writer.Motor(f.Axis0(0), MotorVelocity, minimum, maximum);
         }
         else if (Spring.IsActive)
         {
             // C = target - phi, Cdot = -(w1 - w0).X0: the angular drive row of a D6 with the angle itself as error.
-            writer.AngularDrive(axis, 0, SpringTarget - Angle(f), Spring);
+            writer.AngularDrive(Gradient(f), 0, SpringTarget - Angle(f), Spring);
         }
 
         if (LimitEnabled)
         {
-            writer.AngleLimits(axis, Angle(f), Limit.Lower, Limit.Upper, Limit.Response);
+            writer.AngleLimits(Gradient(f), Angle(f), Limit.Lower, Limit.Upper, Limit.Response);
         }
 
         return writer.Count;
@@ -117,6 +116,18 @@ internal sealed class RevoluteJoint : JointModel
     private bool IsLocked => LimitEnabled && Limit.Lower >= Limit.Upper;
 
     private void LockedAxes(ref RowWriter writer, in JointFrames f) => writer.Locked(f, 7, IsLocked ? 7 : 6);
+
+    // The axis, where both axes are one; in an inconsistent loop they are not, and what held by PhysX's row would give energy.
+    private Vector3d Gradient(in JointFrames f)
+    {
+        if (!LimitsFromAfar)
+        {
+            return f.Axis0(0);
+        }
+
+        f.Axes1(out Vector3d x1, out _, out _);
+        return SwingTwist.TwistGradient(f.Axis0(0), x1);
+    }
 
     private double Angle(in JointFrames f) => Followed(SwingTwist.TwistAngle(f.Relative.Rotation));
 }

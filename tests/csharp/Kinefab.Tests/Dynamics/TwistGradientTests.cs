@@ -27,4 +27,37 @@ public sealed class TwistGradientTests
             Assert.That(Vector3d.Dot(gradient, rate), Is.EqualTo((later - before) / (2 * h)).Within(1e-6 * (1 + gradient.LengthSquared)), $"trial {trial}");
         }
     }
+
+    // Beside one locked swing the other may turn all round; at half a turn of it a twist as such has no number.
+    [TestCase(true)]
+    [TestCase(false)]
+    public void Prepare_TwistBesideALockedSwing_IsTheTurnAboutXAtAnySwing(bool isFirstLocked)
+    {
+        var joint = new D6Joint
+        {
+            LimitsFromAfar = true,
+            Twist = AxisMotion.Limited,
+            Swing1 = isFirstLocked ? AxisMotion.Locked : AxisMotion.Free,
+            Swing2 = isFirstLocked ? AxisMotion.Free : AxisMotion.Locked,
+            TwistLimit = new AngularLimit { Lower = -0.4, Upper = 1.2 },
+            Body0 = JointModel.World,
+            Frame0 = Pose.Identity,
+            Frame1 = Pose.Identity,
+        };
+        Vector3d swingAxis = isFirstLocked ? Vector3d.UnitZ : Vector3d.UnitY;
+        Span<ConstraintRow> rows = stackalloc ConstraintRow[JointModel.MaxRows];
+        for (int i = 0; i <= 64; i++)
+        {
+            double twist = -0.3 + 0.02 * i;
+            Quaterniond swing = Quaterniond.AxisAngle(swingAxis, 2 * Math.PI * i / 64 - Math.PI / 2);
+            Quaterniond q = swing * Quaterniond.AxisAngle(Vector3d.UnitX, twist);
+            int count = joint.PrepareForces(Pose.Identity, new Pose(Vector3d.Zero, q), rows);
+            joint.FinishTwist(Pose.Identity, new Pose(Vector3d.Zero, q));
+
+            Assert.That(count, Is.EqualTo(2));
+            Assert.That(rows[0].GeometricError, Is.EqualTo(twist + 0.4).Within(1e-12), $"swing {i}");
+            Assert.That(rows[1].GeometricError, Is.EqualTo(1.2 - twist).Within(1e-12), $"swing {i}");
+            Assert.That((rows[1].Angular0 - q * Vector3d.UnitX).Length, Is.LessThan(1e-12), $"swing {i}");
+        }
+    }
 }

@@ -151,6 +151,7 @@ internal sealed class LaneStep<V>
         }
 
         LaneEnergy<V>.Kinetic(Batch).Store(Batch.Work.StartKinetic, 0);
+        Lane<V>.Splat(0).Store(Batch.Work.CompliantWork, 0);
         Batch.Axes?.Clear();
         for (int lane = 0; lane < Occupied && Batch.Axes != null; lane++)
         {
@@ -196,6 +197,7 @@ internal sealed class LaneStep<V>
             return;
         }
 
+        CompliantAngles<V>.AddDrift(Batch);
         RattleStep<V>.Build(Batch);
         VelocityProjection<V>.Run(Batch, dt, tolerance);
         for (int lane = 0; lane < Lane<V>.Width; lane++)
@@ -219,7 +221,7 @@ internal sealed class LaneStep<V>
 
         double gain = Batch.Work.Gain[lane];
         double moving = Batch.Work.Moving[lane];
-        bool mayLose = Batch.Shape.HasKinematic || (Batch.Axes != null && Batch.Axes.HasRow(lane));
+        bool mayLose = Batch.Shape.HasKinematic || CompliantAngles<V>.HaveActed(Batch, lane, moving) || (Batch.Axes != null && Batch.Axes.HasRow(lane));
         if (ledger.Allows(gain, moving, mayLose))
         {
             // Where J v is not 0, no factor on all speeds may change them.
@@ -318,7 +320,7 @@ internal sealed class LaneStep<V>
     {
         Workspace<V> work = Batch.Work;
         Lane<V> kinetic = LaneEnergy<V>.Kinetic(Batch);
-        Lane<V> given = LaneEnergy<V>.Work(Batch);
+        Lane<V> given = LaneEnergy<V>.Work(Batch) + Lane<V>.Load(work.CompliantWork, 0);
         given = Batch.Axes == null ? given : given + Batch.Axes.Work(dt);
         given = Batch.Shape.HasKinematic ? given + LaneEnergy<V>.KinematicWorkBound(Batch) : given;
         kinetic.Store(work.Kinetic, 0);
@@ -363,16 +365,12 @@ internal sealed class LaneStep<V>
 
     private void LeaveOpenOnes()
     {
-        if (Batch.Shape.IsInconsistent)
-        {
-            return;
-        }
-
         BilateralRows<V>.Evaluate(Batch);
         BilateralRows<V>.MeasureErrors(Batch);
         for (int lane = 0; lane < Lane<V>.Width; lane++)
         {
-            _isAlone[lane] |= IsMoved(lane) && Batch.Work.MaxError[lane] > PositionProjection.MostOpen;
+            double open = Batch.Shape.IsInconsistent ? Batch.Work.MaxGap[lane] : Batch.Work.MaxError[lane];
+            _isAlone[lane] |= IsMoved(lane) && open > PositionProjection.MostOpen;
         }
     }
 

@@ -28,7 +28,7 @@ internal sealed class ProjectedStep
         LaneBatch<ScalarLane> batch = _batch;
         ActiveSet<ScalarLane>? scalars = batch.ActiveSet;
         batch.Work.Active[0] = 1;
-        batch.CompliantStep = 0;
+        CompliantAngles<ScalarLane>.Begin(batch, h);
         scalars?.Begin(h, tolerance, true);
         RattleStep<ScalarLane>.Kick(batch, h);
         Array.Clear(batch.Work.PositionImpulses, 0, batch.Work.PositionImpulses.Length);
@@ -40,7 +40,9 @@ internal sealed class ProjectedStep
         LockedInertiaAxes<ScalarLane>.ClearMomentum(batch);
         FreeMotion<ScalarLane>.Drift(batch, h);
         BilateralRows<ScalarLane>.Evaluate(batch);
+        CompliantAngles<ScalarLane>.Evaluate(batch);
         scalars?.AddWork();
+        CompliantAngles<ScalarLane>.AddDrift(batch);
 
         // Closing the pose would make rotations of what is none.
         if (!FreeMotion<ScalarLane>.HasFollowed(batch) || !_closure.TryCloseEnd(tolerance))
@@ -48,6 +50,7 @@ internal sealed class ProjectedStep
             return false;
         }
 
+        CompliantAngles<ScalarLane>.AddClosing(batch);
         RattleStep<ScalarLane>.Build(batch);
         VelocityProjection<ScalarLane>.Rest(batch, tolerance, _exact);
         return true;
@@ -62,7 +65,16 @@ internal sealed class ProjectedStep
             RattleStep<ScalarLane>.Factor(batch, true);
             Impulses<ScalarLane>.NegativeSpeeds(batch);
             batch.ActiveSet?.AddStepTargets(h);
-            _exact.Solve(true);
+            if (batch.Shape.IsInconsistent)
+            {
+                CompliantAngles<ScalarLane>.AddStepTargets(batch);
+                DelassusMatrix<ScalarLane>.Solve(batch, solution);
+            }
+            else
+            {
+                _exact.Solve(true);
+            }
+
             for (int i = 0; i < solution.Length; i++)
             {
                 batch.Work.PositionImpulses[i] += solution[i];

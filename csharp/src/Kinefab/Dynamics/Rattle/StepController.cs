@@ -179,6 +179,7 @@ internal sealed class StepController
 
         Array.Clear(_batch.Work.TotalImpulses, 0, _batch.Work.TotalImpulses.Length);
         _batch.ActiveSet?.ClearWork();
+        _batch.Work.CompliantWork[0] = 0;
         _part.Begin(dt);
         _part.Tries = 0;
         _tolerance = tolerance;
@@ -308,7 +309,7 @@ internal sealed class StepController
         }
     }
 
-    private bool MayLose => _batch.Shape.HasKinematic || _batch.ActiveSet is { HasActed: true };
+    private bool MayLose => _batch.Shape.HasKinematic || CompliantAngles<ScalarLane>.HaveActed(_batch, 0, _energy.Kinetic) || _batch.ActiveSet is { HasActed: true };
 
     private static JointModel? JointOf(Island island, int row)
     {

@@ -147,6 +147,7 @@ internal sealed class Substep
         }
 
         _batch.ActiveSet?.AddWork();
+        CompliantAngles<ScalarLane>.AddDrift(_batch);
         RattleStep<ScalarLane>.Build(_batch);
         GeometricStiffness<ScalarLane>.Estimate(_batch, _batch.Work.PositionImpulses, h);
         _batch.Work.Active[0] = 1;
@@ -189,7 +190,7 @@ internal sealed class Substep
     /// <param name="since">What energy may not have grown since; null: the part's start.</param>
     public bool TryProjected(double h, double tolerance, EnergyAudit? since)
     {
-        if (!IsExact)
+        if (_batch.Shape.Loops == LoopConsistency.Rounded)
         {
             return false;
         }
@@ -266,6 +267,7 @@ internal sealed class Substep
     private bool Complete(double h, double part, double tolerance)
     {
         _batch.ActiveSet?.AddWork();
+        CompliantAngles<ScalarLane>.AddDrift(_batch);
         RattleStep<ScalarLane>.Build(_batch);
         _batch.Work.Active[0] = 1;
         VelocityProjection<ScalarLane>.Run(_batch, h, tolerance, _exact);

@@ -11,6 +11,9 @@ namespace Kinefab.Dynamics.Rattle;
 internal sealed class WatchedLimits<V>
     where V : struct, ILane<V>
 {
+    // Turn of a hinge in a step beyond which it may as well have gone the other way round, radians: a lane turns half as far by its speed at the start.
+    private const double MostTurn = 1;
+
     private readonly Island _shape;
     private readonly ConstraintRow[] _rows = new ConstraintRow[JointModel.MaxRows];
 
@@ -68,7 +71,7 @@ internal sealed class WatchedLimits<V>
         }
     }
 
-    /// <summary>Whether the drift of a lane ended beyond a limit, after <see cref="Measure"/>.</summary>
+    /// <summary>Whether the drift of a lane ended beyond a limit, or turned a hinge so far that no pose tells whether it did, after <see cref="Measure"/>.</summary>
     /// <param name="batch">Placed at the end of the drift.</param>
     /// <param name="lane">The lane.</param>
     /// <param name="tolerance">Largest C, m or rad.</param>
@@ -96,7 +99,7 @@ internal sealed class WatchedLimits<V>
 
             ref double turn = ref _turns[2 * n * w + lane];
             turn = SwingTwist.Nearest(turn, joint.LastTwist);
-            if (form == WatchForm.Twist && !(HingeRange.LeftOf(joint, turn) >= -Substep.MostPassed * tolerance))
+            if (!(Math.Abs(turn - joint.LastTwist) <= MostTurn) || (form == WatchForm.Twist && !(HingeRange.LeftOf(joint, turn) >= -Substep.MostPassed * tolerance)))
             {
                 return true;
             }

@@ -54,6 +54,42 @@ internal sealed class LimitLawTests
         Assert.That(Angle(m), Is.EqualTo(-10 * Math.PI / 180).Within(1e-8));
     }
 
+    // Thrown from rest so far that its pose at the step's end tells another turn: in lanes it is stepped without rows for its limits.
+    [TestCase(3.5)]
+    [TestCase(-4.5)]
+    public void HardLimits_ThrownPastWithinAStep_AreSeen(double turn)
+    {
+        MultibodySystem m = Wheel(h => Limits(h, -170, 170, default));
+        var solver = new RattleSolver(m);
+        solver.Step(Dt);
+        m.Bodies.Torques[0] = new Vector3d(0, 0, 2 * turn * 2 / (Dt * Dt));
+        solver.Step(Dt);
+        Assert.That(m.Joints[0].LastTwist, Is.EqualTo(Math.Sign(turn) * 170 * Math.PI / 180).Within(1e-8));
+    }
+
+    [Test]
+    public void HardLimit_StruckBesideAMotor_TakesUnitysLargestForceForNoLimit()
+    {
+        MultibodySystem endless = Struck(double.PositiveInfinity), largest = Struck(float.MaxValue);
+        Assert.That(endless.Bodies.AngularVelocities[1].Z, Is.LessThan(2));
+        Assert.That(largest.Bodies.AngularVelocities[1].Z, Is.EqualTo(endless.Bodies.AngularVelocities[1].Z).Within(1e-9));
+
+        // A motor turns a bar, on which another comes to a limit at 20 degrees and is thrown back.
+        static MultibodySystem Struck(double force)
+        {
+            var b = new MechanismBuilder { Gravity = Vector3d.Zero };
+            int driven = b.Bar(Vector3d.Zero, new Vector3d(1, 0, 0), 1);
+            int loose = b.Bar(new Vector3d(1, 0, 0), new Vector3d(2, 0, 0), 1);
+            Motor(b.Hinge(JointModel.World, driven, Vector3d.Zero, Vector3d.UnitZ), 2, force, false);
+            Limits(b.Hinge(driven, loose, new Vector3d(1, 0, 0), Vector3d.UnitZ), -20, 20, new LimitResponse { Restitution = 0.5 });
+            b.Change(driven, d => { d.AngularVelocity = new Vector3d(0, 0, 2); d.LinearVelocity = new Vector3d(0, 1, 0); return d; });
+            b.Change(loose, d => { d.AngularVelocity = new Vector3d(0, 0, 6); d.LinearVelocity = new Vector3d(0, 5, 0); return d; });
+            MultibodySystem m = b.Build();
+            Run(m, 0.12);
+            return m;
+        }
+    }
+
     [Test]
     public void HardLimits_NeverReached_TakeNoEnergyFromAFastPendulum()
     {

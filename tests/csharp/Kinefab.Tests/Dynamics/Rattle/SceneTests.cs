@@ -131,6 +131,7 @@ internal sealed class SceneTests
     {
         Assert.That(BitsAfter(SolverScenes.FourBars(9), width), Is.EqualTo(BitsAfter(SolverScenes.FourBars(9), 1)));
         Assert.That(BitsAfter(SolverScenes.DoublePendulums(13), width), Is.EqualTo(BitsAfter(SolverScenes.DoublePendulums(13), 1)));
+        Assert.That(BitsAfter(SolverScenes.FourBars(9, 1e-2), width), Is.EqualTo(BitsAfter(SolverScenes.FourBars(9, 1e-2), 1)));
     }
 
     [Test]

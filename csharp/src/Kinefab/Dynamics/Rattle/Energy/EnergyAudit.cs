@@ -36,8 +36,8 @@ internal readonly struct EnergyAudit
     {
         double distance = Tolerances * tolerance;
         double speed = distance / dt;
-        _floor = batch.ActiveSet?.LargestStoredEnergy(distance, dt) ?? 0;
-        _work = 0;
+        _floor = (batch.ActiveSet?.LargestStoredEnergy(distance, dt) ?? 0) + CompliantAngles<ScalarLane>.LargestEnergy(batch, distance);
+        _work = batch.Work.CompliantWork[0];
         _terms = 0;
         _forced = 0;
         _stored = batch.ActiveSet?.StoredEnergy(dt) ?? 0;

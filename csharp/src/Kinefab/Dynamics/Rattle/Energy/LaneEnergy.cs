@@ -69,7 +69,7 @@ internal static class LaneEnergy<V>
     /// <summary>Whether nothing does work on a lane's island but its bodies' own constant forces, its rows' drives and kinematic bodies.</summary>
     public static bool IsKnown(LaneRecords<V> batch, int lane)
     {
-        bool isKnown = !batch.Shape.IsInconsistent;
+        bool isKnown = true;
         for (int body = 0; body < batch.Shape.MovingBodies && isKnown; body++)
         {
             isKnown = LaneTransfer<V>.ReadVector(batch.Bodies, LaneRecords<V>.Body(body, BodyLanes.Torque) + lane) == Vector3d.Zero;

@@ -129,7 +129,7 @@ internal class LaneRecords<V>
     /// <summary>What the matrix has on the diagonal above J M^-1 J^T, of rigid rows.</summary>
     public double[] Compliance { get; }
 
-    /// <summary>Step for which its angles are springs, see <see cref="CompliantAngles{V}"/>; 0 where they are rigid.</summary>
+    /// <summary>Length of the drift in which its angles are springs, see <see cref="CompliantAngles{V}"/>; else 0.</summary>
     public double CompliantStep { get; set; }
 
     /// <summary>What the next step takes from those before it.</summary>

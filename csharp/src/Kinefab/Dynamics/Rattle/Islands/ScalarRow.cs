@@ -153,6 +153,9 @@ internal struct ScalarRow
     /// <summary>Whether a drive's force has no bound to a side.</summary>
     public readonly bool IsEndless => Math.Max(Built.Maximum, -Built.Minimum) > Endless;
 
+    /// <summary>Whether it has none to either side, so that a motor keeps its speed whatever strikes.</summary>
+    public readonly bool HoldsThroughBlows => Math.Min(Built.Maximum, -Built.Minimum) > Endless;
+
     /// <summary>What the row is to the step that begins at the pose where it was written.</summary>
     /// <param name="reach">C up to which a soft limit counts as reached, m or rad.</param>
     public readonly RowKind FindKind(double reach)

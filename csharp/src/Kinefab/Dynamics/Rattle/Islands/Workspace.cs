@@ -24,6 +24,9 @@ internal sealed class Workspace<V>
         Turns = new double[4 * BodyLanes.Count];
         Error = new double[rows * w];
         LastError = new double[rows * w];
+        LastAngles = shape.IsInconsistent ? new double[rows * w] : Array.Empty<double>();
+        CompliantInertia = new double[w];
+        CompliantWork = new double[w];
         Solution = new double[rows * w];
         LastSolution = new double[rows * w];
         Move = new double[rows * w];
@@ -65,6 +68,14 @@ internal sealed class Workspace<V>
     public double[] Error { get; }
 
     public double[] LastError { get; }
+
+    /// <summary>C of locked angles that are springs up to where their work is known, and that work since the start of the step, J: see <see cref="CompliantAngles{V}"/>.</summary>
+    public double[] LastAngles { get; }
+
+    public double[] CompliantWork { get; }
+
+    /// <summary>Inverse of the largest moment of a body about one of its joints, of each lane, 1/(kg m^2).</summary>
+    public double[] CompliantInertia { get; }
 
     /// <summary>Right-hand side, then impulses.</summary>
     public double[] Solution { get; }

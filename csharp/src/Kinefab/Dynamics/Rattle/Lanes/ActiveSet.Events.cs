@@ -100,7 +100,7 @@ internal sealed partial class ActiveSet<V>
                 scalar.StartSpeed = isSpent ? 0 : StartSpeed(scalar);
                 scalar.State = scalar.Built.GeometricError - scalar.Allowed <= reach ? RowState.Free : RowState.AtBound;
             }
-            else if (!IsEndless(scalar))
+            else if (!(scalar.Kind is RowKind.SpeedMotor or RowKind.Motion && scalar.HoldsThroughBlows))
             {
                 scalar.State = RowState.AtBound;
             }
@@ -182,10 +182,6 @@ internal sealed partial class ActiveSet<V>
 
         return isChanged;
     }
-
-    // Whether a motor or prescribed motion holds its speed through a blow.
-    private static bool IsEndless(in ScalarRow scalar) =>
-        scalar.Kind is RowKind.SpeedMotor or RowKind.Motion && double.IsInfinity(scalar.Built.Minimum) && double.IsInfinity(scalar.Built.Maximum);
 
     private static bool IsHardLimit(in ConstraintRow row) => row.Has(RowFlags.Limit) && !row.Has(RowFlags.Spring);
 }

@@ -53,12 +53,6 @@ internal static class BilateralRows<V>
                 EvaluateAngular(batch, n, block, row + linear * w);
             }
         }
-
-        if (batch.CompliantStep > 0)
-        {
-            CompliantAngles<V>.Evaluate(batch);
-        }
-
     }
 
     /// <summary>J of all rows where levers and axes were last placed.</summary>

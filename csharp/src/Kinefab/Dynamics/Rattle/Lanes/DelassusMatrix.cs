@@ -37,7 +37,7 @@ internal static class DelassusMatrix<V>
     // Least part of the diagonal of which an angular row gets its share: keeps the pivots of needles above rounding.
     private const double LeastPart = 1e-5;
 
-    /// <summary>The same in loops whose axes are off: softer than a misalignment, harder than a freedom.</summary>
+    /// <summary>The same in loops whose axes are off, while they are found: softer than a misalignment, harder than a freedom.</summary>
     public const double InconsistentShare = 0.1;
 
     /// <summary>The same in their projection, in which their angles take no part.</summary>
@@ -458,7 +458,9 @@ internal static class DelassusMatrix<V>
         int row = batch.Shape.Pattern.Rows[n] * Lane<V>.Width;
         if (batch.Shape.IsRedundant)
         {
-            Lane<V> least = batch.Shape.Loops == LoopConsistency.Exact ? LeastResponse(batch, block) : Lane<V>.Splat(double.PositiveInfinity);
+            Lane<V> least = batch.CompliantStep > 0 ? Lane<V>.Load(batch.Work.CompliantInertia, 0)
+                : batch.Shape.Loops == LoopConsistency.Exact ? LeastResponse(batch, block)
+                : Lane<V>.Splat(double.PositiveInfinity);
             RegulariseLoops(batch, block, row, cell, least, angularShare, linearShare);
         }
         else
@@ -500,7 +502,7 @@ internal static class DelassusMatrix<V>
             bool isAngular = block.Classes[i] == RowClass.Angular;
             Lane<V> diagonal = Lane<V>.Load(matrix, cell);
             Lane<V> response = diagonal + Lane<V>.Load(batch.Work.HubResponse, row);
-            Lane<V> slow = isAngular ? Lane<V>.Min(response, Lane<V>.Max(least, Lane<V>.Splat(LeastPart) * response)) : response;
+            Lane<V> slow = !isAngular ? response : batch.CompliantStep > 0 ? least : Lane<V>.Min(response, Lane<V>.Max(least, Lane<V>.Splat(LeastPart) * response));
             Lane<V> compliance = Lane<V>.Splat(isAngular ? angularShare : linearShare) * slow;
             compliance.Store(batch.Compliance, row);
             (diagonal + compliance).Store(matrix, cell);

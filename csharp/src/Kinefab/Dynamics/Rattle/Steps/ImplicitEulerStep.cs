@@ -48,7 +48,7 @@ internal sealed class ImplicitEulerStep
         LaneBatch<ScalarLane> batch = _batch;
         ActiveSet<ScalarLane>? scalars = batch.ActiveSet;
         batch.Work.Active[0] = 1;
-        batch.CompliantStep = 0;
+        CompliantAngles<ScalarLane>.Begin(batch, h);
         scalars?.Begin(h, tolerance, true);
         RattleStep<ScalarLane>.Kick(batch, h);
         Read(_aim);
@@ -63,6 +63,7 @@ internal sealed class ImplicitEulerStep
             LockedInertiaAxes<ScalarLane>.ClearMomentum(batch);
             FreeMotion<ScalarLane>.Drift(batch, h);
             BilateralRows<ScalarLane>.Evaluate(batch);
+            CompliantAngles<ScalarLane>.Evaluate(batch);
             scalars?.Evaluate(h);
             BilateralRows<ScalarLane>.MeasureErrors(batch);
             BilateralRows<ScalarLane>.Build(batch);
@@ -146,7 +147,7 @@ internal sealed class ImplicitEulerStep
         DelassusMatrix<ScalarLane>.InverseInertias(_batch);
         Stiffen(h);
         _batch.ActiveSet?.WriteRows(false);
-        DelassusMatrix<ScalarLane>.Assemble(_batch, Share);
+        DelassusMatrix<ScalarLane>.Assemble(_batch, _batch.CompliantStep > 0 ? CompliantAngles<ScalarLane>.Share(h) : Share);
         _batch.ActiveSet?.AddToDiagonal(true);
         DelassusMatrix<ScalarLane>.Factor(_batch);
     }

@@ -66,12 +66,6 @@ internal sealed class PositionProjection
     /// <param name="tolerance">Largest C, m or rad.</param>
     public bool TryClose(double tolerance)
     {
-        // Loops that are inexact close only as far as their angles give: in the drift.
-        if (_batch.Shape.IsInconsistent)
-        {
-            return false;
-        }
-
         SaveStart();
         bool isOpen = IsOpen();
         bool isTorn = isOpen && AreJointsOpen();
@@ -194,6 +188,8 @@ internal sealed class PositionProjection
             MeasureRotations(n, _batch.Shape.Blocks[n]);
         }
 
+        LeaveCompliant();
+
         double most = 0;
         foreach (double c in _batch.Work.Error)
         {
@@ -228,11 +224,20 @@ internal sealed class PositionProjection
         }
     }
 
+    // Angles that are springs stand as they stand.
+    private void LeaveCompliant()
+    {
+        for (int row = 0; row < _batch.Work.Error.Length && _batch.Shape.IsInconsistent; row++)
+        {
+            _batch.Work.Error[row] = _batch.Shape.IsAngular[row] ? 0 : _batch.Work.Error[row];
+        }
+    }
+
     private bool Move(bool isExact)
     {
         Island shape = _batch.Shape;
         double[] solution = _batch.Work.Solution;
-        DelassusMatrix<ScalarLane>.Assemble(_batch, _batch.AngularShare);
+        DelassusMatrix<ScalarLane>.Assemble(_batch, _batch.Shape.IsInconsistent ? DelassusMatrix<ScalarLane>.UnconstrainedShare : _batch.AngularShare);
         _batch.ActiveSet?.AddToDiagonal(false);
         DelassusMatrix<ScalarLane>.Factor(_batch);
         for (int i = 0; i < solution.Length; i++)
@@ -240,7 +245,7 @@ internal sealed class PositionProjection
             solution[i] = -_batch.Work.Error[i];
         }
 
-        if (isExact)
+        if (isExact && !_batch.Shape.IsInconsistent)
         {
             _exact.Solve(false);
         }

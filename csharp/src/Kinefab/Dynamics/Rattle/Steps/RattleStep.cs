@@ -33,7 +33,7 @@ internal static class RattleStep<V>
             converged[lane] = batch.Work.Active[lane] == 0;
         }
 
-        batch.CompliantStep = batch.Shape.IsInconsistent ? h : 0;
+        CompliantAngles<V>.Begin(batch, h);
         batch.ActiveSet?.Begin(h, tolerance, false);
         batch.Axes?.WriteRows();
         Kick(batch, h / 2);
@@ -60,6 +60,7 @@ internal static class RattleStep<V>
             LockedInertiaAxes<V>.ClearMomentum(batch);
             FreeMotion<V>.Drift(batch, h);
             BilateralRows<V>.Evaluate(batch);
+            CompliantAngles<V>.Evaluate(batch);
             batch.ActiveSet?.Evaluate(h);
             batch.Axes?.Evaluate(h);
             BilateralRows<V>.MeasureErrors(batch);
@@ -187,7 +188,11 @@ internal static class RattleStep<V>
     {
         batch.ActiveSet?.WriteRows(false);
         batch.Axes?.WriteRows();
-        DelassusMatrix<V>.Assemble(batch, batch.Shape.IsInconsistent && !isDrift ? DelassusMatrix<V>.UnconstrainedShare : batch.AngularShare);
+        double share = !batch.Shape.IsInconsistent ? batch.AngularShare
+            : !isDrift ? DelassusMatrix<V>.UnconstrainedShare
+            : batch.CompliantStep > 0 ? CompliantAngles<V>.Share(batch.CompliantStep)
+            : batch.AngularShare;
+        DelassusMatrix<V>.Assemble(batch, share);
         batch.ActiveSet?.AddToDiagonal(isDrift);
         if (batch.Axes != null && batch.Axes.HasSprings())
         {

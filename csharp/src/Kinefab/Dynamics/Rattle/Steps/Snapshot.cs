@@ -14,6 +14,7 @@ internal sealed class Snapshot
 
     // LastTwist of each block's joint, or all coordinates of its coupling.
     private readonly double[] _angles;
+    private double _compliantWork;
 
     public Snapshot(LaneBatch<ScalarLane> batch)
     {
@@ -32,6 +33,7 @@ internal sealed class Snapshot
 
     public void Save(LaneBatch<ScalarLane> batch)
     {
+        _compliantWork = batch.Work.CompliantWork[0];
         Array.Copy(batch.Bodies, _bodies, _bodies.Length);
         Array.Copy(batch.VelocityImpulses, _half, _half.Length);
         Array.Copy(batch.Work.TotalImpulses, _total, _total.Length);
@@ -54,6 +56,7 @@ internal sealed class Snapshot
 
     public void Restore(LaneBatch<ScalarLane> batch)
     {
+        batch.Work.CompliantWork[0] = _compliantWork;
         Array.Copy(_bodies, batch.Bodies, _bodies.Length);
         Array.Copy(_half, batch.VelocityImpulses, _half.Length);
         Array.Copy(_total, batch.Work.TotalImpulses, _total.Length);

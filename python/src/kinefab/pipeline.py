@@ -164,6 +164,8 @@ def analysed(scene: Scene, options: ExportOptions, report: Report, progress: Pro
     )
     report.extend(found.report)
     exported = with_helpers(found.scene(options.solve))
+    if isinstance(scene, WrittenScene):
+        exported = scene.in_its_order(exported)
     groups = rigid_groups(exported, [*found.fixed, *found.built])
     exported = with_mated_apart(exported, groups)
     progress("analyse", 1.0)

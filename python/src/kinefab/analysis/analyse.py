@@ -97,7 +97,7 @@ def _analysed(scene: Scene, options: AnalysisOptions, progress: Callable[[float]
     couplings += symmetric_couplings(assembly, tree, links, closed, report)
     fixed, built = _fixed(assembly), built_together(assembly)
     groups = rigid_groups(scene, [*fixed, *built])
-    joints = _in_source_order(assembly, links, found.aside)
+    joints = _in_source_order(assembly, links)
     place = {joint.id: i for i, joint in enumerate(joints)}
     return Analysis(
         source=scene,
@@ -113,7 +113,7 @@ def _analysed(scene: Scene, options: AnalysisOptions, progress: Callable[[float]
             idle_freedoms(assembly) if as_stated else _idle(assembly, links, couplings, closed),
             key=lambda idle: idle.nodes,
         ),
-        joints=joints,
+        joints=[*joints, *found.aside],
         findings={
             **{joint.id: JointFinding(joint.id, closure=joint.closes) for joint in found.aside},
             **{link.joint.id: link.finding for link in links},
@@ -131,17 +131,15 @@ def _analysed(scene: Scene, options: AnalysisOptions, progress: Callable[[float]
     )
 
 
-def _in_source_order(assembly: Assembly, links: list[Link], aside: list[Joint]) -> list[Joint]:
-    """The links' joints, and those beside them, by the first nodes of the two bodies."""
+def _in_source_order(assembly: Assembly, links: list[Link]) -> list[Joint]:
+    """The links' joints by the first nodes of the two bodies."""
     bodies, first = np.unique(assembly.body, return_index=True)
     place = {int(b): int(i) for b, i in zip(bodies, first)}
 
-    def key(sides: tuple[int, int]) -> list[int]:
-        return sorted(place.get(b, len(assembly.body) + b) for b in sides)
+    def key(link: Link) -> list[int]:
+        return sorted(place.get(b, len(assembly.body) + b) for b in (link.a, link.b))
 
-    found = [((link.a, link.b), link.joint) for link in links]
-    found += [((assembly.body_of(joint.a), assembly.body_of(joint.b)), joint) for joint in aside]
-    return [joint for _, joint in sorted(found, key=lambda own: key(own[0]))]
+    return [link.joint for link in sorted(links, key=key)]
 
 
 def _closed_scene(assembly: Assembly, found: Links) -> Scene:

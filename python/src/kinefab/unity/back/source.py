@@ -82,6 +82,11 @@ class WrittenScene(Scene):
             with_passive_drives(joint, report)
         return self.written
 
+    def in_its_order(self, analysed: Scene) -> Scene:
+        """The analysed scene with the joints in the order in which the analysis of the source had them."""
+        place = {joint.id: i for i, joint in enumerate(self.joints)}
+        return replace(analysed, joints=sorted(analysed.joints, key=lambda joint: place.get(joint.id, len(place))))
+
     def tell_unused(self, options: ExportOptions, report: Report) -> None:
         """What is asked of geometry and masses, which a written scene states."""
         usual = ExportOptions()

@@ -106,15 +106,15 @@ def map_joint(
         None if n is None else base(n) if still else carrier(n) for n, still in zip((joint.a, joint.b), stands)
     )
     # Unity's solver moves neither side, and lets two kinematic bodies pass each other with a joint or without
-    idle = a != b and not all(stands) and all(still or (n is not None and led(n)) for n, still in zip((a, b), stands))
+    unmoved = a != b and not all(stands) and all(still or (n is not None and led(n)) for n, still in zip((a, b), stands))
     counted = next((c for c in scene.couplings if joint.id in c.joints), None)
-    if idle and counted is not None:  # there to be counted by alone, however scripts move the two
-        joint = replace(joint, kind=JointKind.GENERAL, freedoms=(FREE,) * 6)
+    if unmoved and counted is not None:
+        joint = idle(joint)
     shape = canonical(joint)
     coordinates = coordinates_in(scene, joint, shape)
     shape = turns_as_travel(joint, shape, coordinates)
     lossless = report_gap(joint, coordinates, report)
-    unneeded = _why_none(joint, shape, found, groups, counted is not None, idle)
+    unneeded = _why_none(joint, shape, found, groups, counted is not None, unmoved)
     if unneeded in LOSSES:
         report.dropped(feature, unneeded, joint.where, joint=joint.id)
     elif unneeded == "CLOSURE_NOT_NEEDED":
@@ -123,7 +123,7 @@ def map_joint(
         report.kept(feature, joint.where)
     if unneeded is not None:
         return None
-    if idle and counted is not None:
+    if unmoved and counted is not None:
         report.add("JOINT_BETWEEN_LED_COUNTED", joint.where, joint=joint.id, coupling=counted.id)
     frame_a = scene.pose(a).inverse() @ scene.pose(joint.a) @ shape.frame_a
     frame_b = scene.pose(b).inverse() @ scene.pose(joint.b) @ shape.frame_b
@@ -141,6 +141,11 @@ def map_joint(
     return UnityJoint(joint, owner, connected, component, readings(shape, coordinates, placement), placement.on_a)
 
 
+def idle(joint: Joint) -> Joint:
+    """What there is of a joint whose sides scripts alone move: there to be counted by, however they do."""
+    return replace(joint, kind=JointKind.GENERAL, freedoms=(FREE,) * 6)
+
+
 def with_stated(component: MappedJoint, joint: Joint, coordinates: Mapping[int, UnityCoordinate]) -> MappedJoint:
     """With what the source states of the joint's coordinates.  joint: the source's, with its passive springs."""
     if not isinstance(component, AnchoredJoint):
@@ -152,12 +157,12 @@ def with_stated(component: MappedJoint, joint: Joint, coordinates: Mapping[int, 
 
 
 def _why_none(
-    joint: Joint, shape: CanonicalJoint, found: JointFinding, groups: RigidGroups, counted: bool, idle: bool
+    joint: Joint, shape: CanonicalJoint, found: JointFinding, groups: RigidGroups, counted: bool, unmoved: bool
 ) -> str | None:
     """Why a joint needs no component: a code of the report, "" where one Rigidbody or a FixedJoint of the group is it, or
-    None where it needs one.  counted: whether a coupling counts by it.  idle: whether Unity's solver moves neither side."""
+    None where it needs one.  counted: whether a coupling counts by it.  unmoved: whether Unity's solver moves neither side."""
     if groups.together(joint.a, joint.b):
-        if idle:
+        if unmoved:
             return "JOINT_BETWEEN_LED"
         return "JOINT_REDUNDANT" if shape.rotations or shape.translations else ""
     if counted:
@@ -166,7 +171,7 @@ def _why_none(
     apart = found.freed and not (groups.is_ground(joint.a) or groups.is_ground(joint.b))
     if removes_nothing(joint, shape) and not apart:
         return "CLOSURE_NOT_NEEDED" if found.freed else "JOINT_REMOVES_NOTHING"
-    return "JOINT_BETWEEN_LED" if idle else None
+    return "JOINT_BETWEEN_LED" if unmoved else None
 
 
 def component_of(

@@ -18,7 +18,7 @@ from ....spatial import Pose
 from ...frames import COUNTS_CONNECTED
 from ...joints.coordinates import CanonicalJoint, Coordinates, canonical, read_coordinates
 from ...joints.limits import GAP_ANGLE, GAP_LENGTH, turns_as_travel
-from ...joints.mapping import component_of, readings, with_stated
+from ...joints.mapping import component_of, idle, readings, with_stated
 from ...joints.passive import OWN, with_passive_drives
 from ...joints.placement import place
 from ...scene import Joint as Component
@@ -41,7 +41,7 @@ EXTRAS = (TWIST_RANGE, *SWING_RANGES, OWN, *COUNTS_CONNECTED)
 class Ends:
     """Where a component stands.  a, b: the poses of the parts that the source's joint names, the world's for none.
     own, connected: those of the objects with the bodies.  on_a: whether a moves with the own one.  stands: whether a, and b, does.
-    exchanged: whether the restored joint has the two the other way round."""
+    exchanged: whether the restored joint has the two the other way round.  idle: whether forces move neither."""
 
     a: Pose
     b: Pose
@@ -50,6 +50,7 @@ class Ends:
     on_a: bool
     stands: tuple[bool, bool]
     exchanged: bool
+    idle: bool
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -69,6 +70,8 @@ def as_in_source(stated: Joint, component: Component, ends: Ends, restored: Join
     restored: what the component says.  world: its frames there.
     """
     driven = with_passive_drives(stated, Report())
+    if ends.idle:
+        driven = idle(driven)
     shape = canonical(driven)
     frame_a, frame_b = ends.a @ shape.frame_a, ends.b @ shape.frame_b
     at = read_coordinates(shape, frame_a.inverse() @ frame_b)

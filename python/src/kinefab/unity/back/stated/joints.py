@@ -75,6 +75,7 @@ class WrittenJoints:
         ends = Ends(
             *at, poses[owner], Pose() if other is None else poses[other], a == own,
             (self._stands(a), self._stands(b)), (joint.a == own) != (a == own),
+            component.enabled and all(node == 0 or back.scene.nodes[node].grounded for node in (a, b)),
         )  # fmt: skip
         frames_there = [back.scene.pose(n) @ frame for n, frame in ((joint.a, joint.frame_a), (joint.b, joint.frame_b))]
         return as_in_source(stated, component, ends, joint, (frames_there[0], frames_there[1]))

@@ -153,7 +153,7 @@ def test_a_stage_of_a_scene_is_that_of_the_source(source: Path, tmp_path: Path, 
     assert not list(apart(*stages))
 
 
-@pytest.mark.parametrize("seed", range(300, 700))
+@pytest.mark.parametrize("seed", range(40))
 def test_targets_of_a_random_machines_scene_are_those_of_the_machine(seed: int, tmp_path: Path, layers: Any):
     source = machine(seed)
     direct, again = roads(source, tmp_path, "scene.glb", "text", CHOICES[0])

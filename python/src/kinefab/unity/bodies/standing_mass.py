@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping
 from typing import Any
 
 import numpy as np
 
 from ...model import MassProperties
+from ...spatial import Array
 
 AS_STATED = "asStated"
 """Beside what a source says there itself."""
@@ -21,7 +23,13 @@ def with_mass(extras: Mapping[str, object], mass: MassProperties) -> dict[str, o
     values = {name: np.asarray(getattr(mass, name)) for name in _FIELDS}
     if not all((np.abs(value) <= MOST).all() for value in values.values()):
         return dict(extras)
-    return {**extras, AS_STATED: {name: value.tolist() for name, value in values.items()}}
+    return {**extras, AS_STATED: {name: _rounded(value).tolist() for name, value in values.items()}}
+
+
+def _rounded(value: Array) -> Array:
+    """Twelve digits of the largest number."""
+    largest = float(np.abs(value).max())
+    return np.round(value, 11 - math.floor(math.log10(largest))) + 0.0 if largest > 0.0 else value
 
 
 def stated_mass(extras: Mapping[str, object]) -> tuple[MassProperties | None, dict[str, object]]:

@@ -52,8 +52,8 @@ FLOORS: dict[str, list[set[str]]] = {
         {"bodies", "assets", "joints", "constraints", "mobility", "placing", "apart"},
         {"mapping"},
         {"contact"},
-        {"switched_off"},
-        {"counting", "links", "back"},
+        {"switched_off", "counting"},
+        {"links", "back"},
         {"__init__"},
     ],
     "targets": [

@@ -35,6 +35,7 @@ from ...spatial import Pose, matrix_from_quaternion
 from .. import frames
 from ..assets.clips import WRAP
 from ..assets.meshes import unmapped_mesh
+from ..counting import led_bodies
 from ..joints.passive import with_passive_drives
 from ..bodies.standing_mass import stated_mass
 from ..mapping import GROUND_ID
@@ -139,10 +140,13 @@ class _Nodes:
         self.drawn = {c.mesh for entry in self.objects for c in entry.components if isinstance(c, MeshFilter)}
         self.ground = next((i for i, entry in enumerate(self.objects) if entry.role == "ground" or entry.id == GROUND_ID), None)
         self.placed = {i: kind for i in range(len(self.objects)) if (kind := self._place_of(i))}
-        kept = [i for i in range(len(self.objects)) if i != self.ground and i not in self.placed]
+        self.light = led_bodies(scene)
+        kept = [i for i in range(len(self.objects)) if i != self.ground and i not in self.placed and i not in self.light]
         self.node_of = {index: node for node, index in enumerate(kept)}
         self.bodies = [_body(entry.components) for entry in self.objects]
-        self.moving = [body is not None and not self._is_held(i) for i, body in enumerate(self.bodies)]
+        self.moving = [
+            body is not None and not self._is_held(i) and i not in self.light for i, body in enumerate(self.bodies)
+        ]
         self.above_moving = list(self.moving)
         for index in range(len(self.objects) - 1, -1, -1):
             parent = self.objects[index].parent
@@ -153,7 +157,7 @@ class _Nodes:
         written = self.written
         nodes = [self._node(index) for index in self.node_of]
         held = [self._is_held(index) for index in range(len(self.objects))]
-        joints, couplings = WrittenJoints(self.objects, self.back, self.node_of, self.ground, held).named()
+        joints, couplings = WrittenJoints(self.objects, self.back, self.node_of, self.ground, held, self.light).named()
         extras = {key: value for key, value in written.extras.items() if key != "ignoreCollision"}
         source, physics = written.source, written.physics
         return WrittenScene(

@@ -10,7 +10,7 @@ from functools import cached_property
 from ....model import Coupling, Joint
 from ....spatial import Pose
 from ...joints.source_joint import number_of, source_joint
-from ...scene import GameObject
+from ...scene import FixedJoint, GameObject
 from ...scene import Joint as JointComponent
 from ...scene.joints.configurable_joint import APART
 from ..restored import Restored
@@ -20,13 +20,14 @@ from .as_in_source import Counted, Ends, as_in_source, in_source_terms
 @dataclass(frozen=True, eq=False)
 class WrittenJoints:
     """node_of: the nodes of those objects that are one.  ground: the object that stands for the ground.
-    held: of each object whether its own body stands."""
+    held: of each object whether its own body stands.  light: of each light body that counts for a led one the object of that."""
 
     objects: Sequence[GameObject]
     back: Restored
     node_of: Mapping[int, int]
     ground: int | None
     held: Sequence[bool]
+    light: Mapping[int, int]
 
     @cached_property
     def _index_of(self) -> Mapping[str, int]:
@@ -51,7 +52,7 @@ class WrittenJoints:
             component = self.objects[index].components[k]
             if not isinstance(component, JointComponent):
                 continue
-            sides = (component.part, index), (component.connectedPart, component.connectedBody)
+            sides = (component.part, self.light.get(index, index)), (component.connectedPart, component.connectedBody)
             stated = source_joint(component.extras, joint.id, *(self._node(*side) for side in sides))
             if stated is not None and (counted := self._as_stated(stated, joint, component, index)) is not None:
                 found[joint.id] = counted
@@ -64,9 +65,10 @@ class WrittenJoints:
 
     def _as_stated(self, stated: Joint, joint: Joint, component: JointComponent, owner: int) -> Counted | None:
         back, poses = self.back, self.back.poses
+        carrier = self.light.get(owner, owner)
         sides = [None if n is None else self._object_of[n] for n in (stated.a, stated.b)]
         a, b = (self._body_of(index) for index in sides)
-        own = back.node_of[owner]
+        own = back.node_of[carrier]
         other = component.connectedBody
         connected = 0 if other is None or other == self.ground else back.node_of[other]
         if {a, b} != {own, connected} or a == b:
@@ -74,7 +76,7 @@ class WrittenJoints:
         at = [Pose() if index is None else poses[index] for index in sides]
         ends = Ends(
             *at, poses[owner], Pose() if other is None else poses[other], a == own,
-            (self._stands(a), self._stands(b)), (joint.a == own) != (a == own),
+            (self._stands(a), self._stands(b)), (joint.a == back.node_of[owner]) != (a == own),
             component.enabled and all(node == 0 or back.scene.nodes[node].grounded for node in (a, b)),
         )  # fmt: skip
         frames_there = [back.scene.pose(n) @ frame for n, frame in ((joint.a, joint.frame_a), (joint.b, joint.frame_b))]
@@ -83,13 +85,14 @@ class WrittenJoints:
     def _joints(self, counted: Mapping[str, Counted]) -> list[Joint]:
         """Between the nodes, in the source's order: the restored ones are between Rigidbodies, and the world is one of them."""
         index_of = self._index_of
-        carrier = [None if i == 0 else index_of[node.id] for i, node in enumerate(self.back.scene.nodes)]
+        bodies = [None if i == 0 else index_of[node.id] for i, node in enumerate(self.back.scene.nodes)]
+        carrier = [None if index is None else self.light.get(index, index) for index in bodies]
         found: list[Joint] = []
         numbers: dict[str, float] = {}
         for (index, k), joint in (self.back.joints | self.back.switched_off).items():
             component = self.objects[index].components[k]
             numbers[joint.id] = number_of(getattr(component, "extras", {}))
-            if APART in getattr(component, "extras", {}):
+            if APART in getattr(component, "extras", {}) or (index in self.light and isinstance(component, FixedJoint)):
                 continue
             if (known := counted.get(joint.id)) is not None:
                 found.append(known.joint)

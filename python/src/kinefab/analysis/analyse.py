@@ -115,7 +115,7 @@ def _analysed(scene: Scene, options: AnalysisOptions, progress: Callable[[float]
         ),
         joints=[*joints, *found.aside],
         findings={
-            **{joint.id: JointFinding(joint.id, closure=joint.closes) for joint in found.aside},
+            **{joint.id: JointFinding(joint.id) for joint in found.aside},
             **{link.joint.id: link.finding for link in links},
         },
         couplings=couplings,

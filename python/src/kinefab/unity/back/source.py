@@ -35,9 +35,9 @@ from ...spatial import Pose, matrix_from_quaternion
 from .. import frames
 from ..assets.clips import WRAP
 from ..assets.meshes import unmapped_mesh
+from ..bodies.standing_mass import stated_mass
 from ..counting import led_bodies
 from ..joints.passive import with_passive_drives
-from ..bodies.standing_mass import stated_mass
 from ..mapping import GROUND_ID
 from ..scene import ArticulationBody, Collider, GameObject, Material, MeshFilter, MeshRenderer, Rigidbody, UnityScene
 from .extras import Way, extras_in
@@ -216,7 +216,8 @@ class _Nodes:
         below = [i for i in self.children[index] if i in self.node_of]
         whole = self.moving[index] and bool(below) and not any(self.above_moving[i] for i in below)
         part = (bool(bodies or shapes or not below) or body is not None) and not whole
-        mass, extras = stated_mass(entry.extras)
+        stated, extras = stated_mass(entry.extras)
+        mass = stated if held else None
         if body is not None and not stands:
             turn = frames.rotation(matrix_from_quaternion(np.array(body.inertiaTensorRotation)))
             inertia = turn @ np.diag(body.inertiaTensor) @ turn.T

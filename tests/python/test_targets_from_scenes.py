@@ -5,8 +5,9 @@ USD's layers are looked at as the target fills them, through a stand-in for usd-
 
 from __future__ import annotations
 
+import random
 import sys
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from dataclasses import replace
 from pathlib import Path
 from typing import Any
@@ -14,8 +15,11 @@ from typing import Any
 import kinefab
 import numpy as np
 import pytest
+import trimesh
 from articulations import machine
 from kinefab.geometry.looks.gltf_document import gltf_document
+from kinefab.model import Body, Collider, ColliderKind, Mesh, PhysicsMaterial
+from kinefab.spatial import rotation_exp
 from test_sources_kinefab_options import SOURCES
 
 CLOSE = 1e-9
@@ -153,9 +157,51 @@ def test_a_stage_of_a_scene_is_that_of_the_source(source: Path, tmp_path: Path, 
     assert not list(apart(*stages))
 
 
-@pytest.mark.parametrize("seed", range(40))
-def test_targets_of_a_random_machines_scene_are_those_of_the_machine(seed: int, tmp_path: Path, layers: Any):
-    source = machine(seed)
+def solid(draw: random.Random, number: int) -> Mesh:
+    """A box, a ball, a capsule, a tube or a wedge, turned and shifted in its own frame or not."""
+    kind = draw.choice(["box", "ball", "capsule", "tube", "wedge"])
+    made: trimesh.Trimesh = {
+        "box": lambda: trimesh.creation.box((0.2, 0.1, 0.05)),
+        "ball": lambda: trimesh.creation.icosphere(3, 0.07),
+        "capsule": lambda: trimesh.creation.capsule(0.2, 0.03),
+        "tube": lambda: trimesh.creation.annulus(0.05, 0.06, 0.1),
+        "wedge": lambda: trimesh.convex.convex_hull([(0, 0, 0), (0.2, 0, 0), (0, 0.1, 0), (0, 0, 0.1), (0.2, 0, 0.1)]),
+    }[kind]()
+    vertices = np.array(made.vertices, dtype=np.float64)
+    if draw.random() < 0.5:
+        vertices = vertices @ rotation_exp(np.array([0.3, -0.2, 0.5])).T + np.array([0.1, 0.0, -0.05])
+    return Mesh(f"{kind}{number}", vertices, np.array(made.faces, dtype=np.int64))
+
+
+def stated(draw: random.Random) -> Collider:
+    pose = kinefab.Pose(rotation_exp(np.array([0.0, 0.0, draw.choice([0.0, 0.4])])), np.array([0.0, 0.1, 0.0]))
+    common = {"trigger": draw.random() < 0.2, "group": draw.choice(["", "a", "b"]), "enabled": draw.random() < 0.9}
+    if draw.random() < 0.5:
+        return Collider(ColliderKind.BOX, pose, size=(0.1, 0.2, 0.3), material=PhysicsMaterial("rubber", 0.9, 1.1, 0.2), **common)
+    kind = draw.choice([ColliderKind.CAPSULE, ColliderKind.SPHERE])
+    return Collider(kind, pose, radius=0.05, length=0.2 if kind is ColliderKind.CAPSULE else 0.0, **common)
+
+
+def clothed(seed: int) -> kinefab.Scene:
+    """A machine whose parts have bodies, with colliders of their source or without."""
+    scene, draw = machine(seed), random.Random(seed)
+    for i, node in enumerate(scene.nodes):
+        bodies: list[Body] = []
+        for k in range(draw.choice([0, 1, 1, 2])):
+            scene.meshes.append(solid(draw, k))
+            away = kinefab.Pose(translation=np.array([0.2, 0.1, 0.3])) if draw.random() < 0.3 else kinefab.Pose()
+            bodies.append(Body(f"body{k}", len(scene.meshes) - 1, pose=away))
+        own = (stated(draw),) if draw.random() < 0.3 else None
+        scene.nodes[i] = replace(node, bodies=tuple(bodies), colliders=own)
+    return scene
+
+
+@pytest.mark.parametrize("seed", range(16))
+@pytest.mark.parametrize("make", [machine, clothed])
+def test_targets_of_a_random_machines_scene_are_those_of_the_machine(
+    make: Callable[[int], kinefab.Scene], seed: int, tmp_path: Path, layers: Any
+):
+    source = make(seed)
     direct, again = roads(source, tmp_path, "scene.glb", "text", CHOICES[0])
     if isinstance(direct, list) or isinstance(again, list):
         assert direct == again

@@ -35,7 +35,7 @@ from ...spatial import Pose, matrix_from_quaternion
 from .. import frames
 from ..assets.clips import WRAP
 from ..assets.meshes import unmapped_mesh
-from ..bodies.standing_mass import stated_mass
+from ..bodies.as_stated import stated_body, stated_mass, without_stated
 from ..counting import led_bodies
 from ..joints.passive import with_passive_drives
 from ..mapping import GROUND_ID
@@ -216,8 +216,7 @@ class _Nodes:
         below = [i for i in self.children[index] if i in self.node_of]
         whole = self.moving[index] and bool(below) and not any(self.above_moving[i] for i in below)
         part = (bool(bodies or shapes or not below) or body is not None) and not whole
-        stated, extras = stated_mass(entry.extras)
-        mass = stated if held else None
+        mass = stated_mass(entry.extras) if held else None
         if body is not None and not stands:
             turn = frames.rotation(matrix_from_quaternion(np.array(body.inertiaTensorRotation)))
             inertia = turn @ np.diag(body.inertiaTensor) @ turn.T
@@ -244,7 +243,7 @@ class _Nodes:
             ),
             layer=entry.layer,
             tag=entry.tag,
-            extras=extras,
+            extras=without_stated(entry.extras),
         )
 
     def _parent(self, entry: GameObject) -> int | None:
@@ -263,12 +262,13 @@ class _Nodes:
         return self.back.poses[node].inverse() @ self.back.poses[index]
 
     def _bodies(self, index: int, node: int) -> list[Body]:
-        components = self.objects[index].components
+        entry = self.objects[index]
+        components = entry.components
         renderer = next((c for c in components if isinstance(c, MeshRenderer)), None)
         scale = _three(self.back.scales[index])
         return [
             Body(
-                self.objects[index].name if index != node else self.written.meshes[c.mesh].name,
+                entry.name if index != node else stated_body(entry.extras) or self.meshes[c.mesh].name,
                 c.mesh,
                 () if renderer is None else self._surfaces(renderer.materials),
                 pose=self._local(index, node),

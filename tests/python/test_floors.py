@@ -50,6 +50,7 @@ FLOORS: dict[str, list[set[str]]] = {
     "unity": [
         {"frames", "scene", "definitions", "container"},
         {"bodies", "assets", "joints", "constraints", "mobility", "placing", "apart"},
+        {"as_stated"},
         {"mapping"},
         {"contact"},
         {"switched_off", "counting"},

@@ -16,10 +16,10 @@ from ..options import Ground
 from ..rigid import RigidGroups, active_nodes, is_dynamic, is_kinematic
 from . import frames
 from .apart import apart_id, apart_joint
+from .as_stated import with_stated as with_stated_of_part
 from .assets.clips import map_clip
 from .assets.meshes import MappedMeshes
 from .assets.surfaces import map_physics_material, map_surface
-from .bodies.as_stated import with_stated as with_stated_of_part
 from .bodies.colliders import Colliders, chosen_colliders, stated_collider
 from .bodies.rigidbodies import Rigidbodies, carried_along, held_below, map_rigidbody, parents_beside, place_rigidbodies
 from .bodies.standing import Standing, find_standing
@@ -152,8 +152,7 @@ class _Builder:
             above = self.ground if parent is None else self.object_of[parent]
             if beside[i] != node.parent:
                 self.report.kept(f"part {node.id}", node.where, "GROUNDED_STANDS_BESIDE", node=node.id)
-            stands = self.rigidbodies.carrier_of[i] is None
-            extras = with_stated_of_part(node.extras, node.mass if stands else None, self._own_body(i))
+            extras = with_stated_of_part(self.scene, i, self.groups.standing, self.rigidbodies.carrier_of[i] is None)
             index = self._object(
                 GameObject(
                     node.id, node.name, above, active[i], placed[i],
@@ -173,15 +172,6 @@ class _Builder:
         self.objects.append(made)
         self.components.append([])
         return len(self.objects) - 1
-
-    def _own_body(self, index: int) -> str:
-        """The name of the one body whose mesh is the object's own, where the mesh has another."""
-        bodies = [body for body in self.scene.nodes[index].bodies if body.mesh is not None]
-        if len(bodies) != 1 or not at_home(bodies[0]):
-            return ""
-        (body,) = bodies
-        assert body.mesh is not None
-        return "" if body.name == self.scene.meshes[body.mesh].name else body.name
 
     def _add_bodies(self, index: int, parent: int) -> None:
         """One body at home is the object's own mesh; others are children, so that each keeps its place and collider."""

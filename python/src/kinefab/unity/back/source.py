@@ -33,9 +33,9 @@ from ...model import (
 from ...options import Closures, ColliderShape, ExportOptions, Ground
 from ...spatial import Pose, matrix_from_quaternion
 from .. import frames
+from ..as_stated import stated_body, stated_mass, stated_piece, without_stated
 from ..assets.clips import WRAP
 from ..assets.meshes import unmapped_mesh
-from ..bodies.as_stated import stated_body, stated_mass, without_stated
 from ..counting import led_bodies
 from ..joints.passive import with_passive_drives
 from ..mapping import GROUND_ID
@@ -57,11 +57,12 @@ _REPEATS = {word: repeat for repeat, word in WRAP.items()}
 @dataclass(slots=True, eq=False)
 class WrittenScene(Scene):
     """written: the same in Unity's terms, as it stands in the file.  path: the file's name.  extras_at: what other programs have
-    written into its objects, by the way to each."""
+    written into its objects, by the way to each.  pieces: pairs of nodes that stand and are of one piece."""
 
     written: UnityScene = field(default_factory=UnityScene)
     path: str = ""
     extras_at: Mapping[Way, Mapping[str, Any]] = field(default_factory=dict[Way, Mapping[str, Any]])
+    pieces: Sequence[tuple[int, int]] = ()
 
     def as_written(self, links: bool, options: ExportOptions, report: Report) -> UnityScene | None:
         """What is in the file, where nothing is asked for that it was not made with; None where it is to be made anew.
@@ -178,7 +179,13 @@ class _Nodes:
             apart=pairs_apart(written, self.node_of),
             colliding=pairs_colliding(written, self.node_of),
             written=written,
+            pieces=self._pieces(nodes),
         )
+
+    def _pieces(self, nodes: Sequence[Node]) -> list[tuple[int, int]]:
+        place = {node.id: i for i, node in enumerate(nodes)}
+        told = ((place.get(stated_piece(self.objects[index].extras)), node) for index, node in self.node_of.items())
+        return [(first, node) for first, node in told if first is not None and nodes[first].grounded and nodes[node].grounded]
 
     def _place_of(self, index: int) -> str:
         """``body``, ``collider`` or ``site`` of an object that only gives one a place on the node above it, "" of any other."""

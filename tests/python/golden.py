@@ -27,11 +27,15 @@ FIXTURES = Path(__file__).resolve().parents[2] / "fixtures"
 NEWER = r', "(?:id|name|part|connectedPart|definition)": "(?:[^"\\]|\\.)*"'
 """What format 1.1 tells beyond 1.0 of a joint, behind its type, and of a part, at its end or before its components."""
 
+AS_STATED = r'"asStated": ' + r"\{(?:[^{}]|" * 4 + r"\{[^{}]*\}" + r")*\}" * 4
+"""What stands beside a component, or in a part that stands, for targets of other formats: braces in braces."""
+
 
 def unnamed(text: str) -> str:
     """A scene's text as format 1.0 has it, which the golden scenes were written in."""
     text = re.sub(rf'("type": "\w+Joint")(?:{NEWER})+', r"\1", text)
     text = re.sub(r', "definition": "(?:[^"\\]|\\.)*"', "", text)
+    text = re.sub(rf'(?:, )?{AS_STATED}|(?:, )?"chosen": "\w+"', "", text).replace(', "extras": {}', "").replace('"extras": {, ', '"extras": {')
     return text.replace('"version": "1.1"', '"version": "1.0"', 1)
 
 

@@ -99,6 +99,15 @@ APART_ONCE = {
     100916: (5, 0),
     101542: (3, 3),  # legs at the poles of their universal joints turn idly, unless the platform moves
     102298: (9, 6),  # a body with two velocities of which one goes on
+    112508: (2, 1),  # a part that the source holds to another by a joint of its own
+    113779: (6, 0),  # a trial step that does not come back onto the joints, and keeps its length for that alone
+    303123: (3, 1),
+    304118: (11, 1),  # a twist of two parts as one that is obstructed, beside an idle one of the first
+    304555: (4, 2),  # branches that cross wherever a part stands still
+    304853: (5, 4),
+    307268: (11, 3),  # two twists of which one goes on
+    316014: (3, 0),  # a loop's only motion, which a coupling ties to a slide outside of it
+    318982: (9, 3),  # two parts whose common velocity is obstructed are one
     90882: (5, 5),  # obstructed velocities mixed with motions, which do not come back onto the joints in one go
 }
 """Mechanisms, by seed, that were once counted differently: mobility and idle freedoms."""

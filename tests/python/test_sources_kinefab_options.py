@@ -3,14 +3,12 @@
 from __future__ import annotations
 
 import re
-from collections import Counter
 from collections.abc import Iterator
 from itertools import product
 from pathlib import Path
 
 import kinefab
 import pytest
-from kinefab.geometry.looks.gltf_document import gltf_document
 from kinefab.unity.back.scene_file import read_buffers, read_scene_file
 
 
@@ -107,31 +105,6 @@ def test_a_prefab_of_a_scene_says_the_same(source: Path, tmp_path: Path):
         prefabs = [files.pop(Path("scene.prefab")).decode("utf-8") for files in found]
         assert found[0] == found[1]
         assert not differing(*prefabs)
-
-
-def joined(path: Path) -> Counter[tuple[str, ...]]:
-    """Of a ``.glb`` the names of what moves and stands by itself, and of each joint's two sides."""
-    document = gltf_document(path)
-    nodes = document["nodes"]
-    above = {child: i for i, node in enumerate(nodes) for child in node.get("children", ())}
-    found: Counter[tuple[str, ...]] = Counter()
-    for i, node in enumerate(nodes):
-        physics = node.get("extensions", {}).get("KHR_physics_rigid_bodies", {})
-        if "motion" in physics:
-            found[node["name"], "stands" if physics["motion"].get("isKinematic") else "moves"] += 1
-        if "joint" in physics:
-            sides = (above.get(i), above.get(physics["joint"]["connectedNode"]))
-            found[tuple(sorted("" if side is None else nodes[side]["name"] for side in sides))] += 1
-    return found
-
-
-@pytest.mark.parametrize("source", SOURCES, ids=lambda path: f"{path.parent.name}-{path.name}")
-def test_a_gltf_of_a_scene_joins_the_same_parts(source: Path, tmp_path: Path):
-    """Each joint on the source's own parts, also on those that stand or move with another's Rigidbody."""
-    direct = export(source, tmp_path / "direct" / "scene.glb", "exact")
-    again = export(next(written(source, tmp_path, "exact")), tmp_path / "again" / "scene.glb", "exact")
-    assert isinstance(direct, Path) and isinstance(again, Path)
-    assert joined(direct) == joined(again)
 
 
 @pytest.mark.parametrize("wrong", ["Nowhere", "Plate", ""])

@@ -164,7 +164,11 @@ def analysed(scene: Scene, options: ExportOptions, report: Report, progress: Pro
     )
     report.extend(found.report)
     exported = with_helpers(found.scene(options.solve))
-    groups = rigid_groups(exported, [*found.fixed, *found.built])
+    together = [*found.fixed, *found.built]
+    if isinstance(scene, WrittenScene):
+        exported = scene.in_its_order(exported)
+        together += scene.pieces
+    groups = rigid_groups(exported, together)
     exported = with_mated_apart(exported, groups)
     progress("analyse", 1.0)
     return Analysed(found, exported, groups)

@@ -51,6 +51,11 @@ def is_dynamic(scene: Scene, groups: RigidGroups, node: int) -> bool:
     return group is not None and not groups.grounded[group] and not is_kinematic(scene, groups.members[group])
 
 
+def moves_nothing(joint: Joint, scene: Scene, groups: RigidGroups) -> bool:
+    """Whether forces move neither side of a joint: what scripts move, or what stands."""
+    return not any(side is not None and is_dynamic(scene, groups, side) for side in (joint.a, joint.b))
+
+
 def active_nodes(scene: Scene) -> list[bool]:
     """For each node whether neither it nor an ancestor is suppressed."""
     active: list[bool] = []

@@ -30,7 +30,7 @@ internal sealed class CollisionPairs
             }
 
             // PhysX lets no link touch the one above it.
-            if (LinkJoint.Of(scene.Document, i) is { ConnectedBody: int parent })
+            if (scene.Held(i) is { ConnectedBody: int parent })
                 _joined.Add(Pair(i, parent));
         }
 

@@ -196,7 +196,7 @@ internal sealed class D6Joint : JointModel
             return;
         }
 
-        if (twist && writer.IsMotion(DriveTwist))
+        if (twist && writer.Prescribed(DriveTwist) == Prescribed.Position)
         {
             AngularMotion(ref writer, f, 0, x1, DriveTwist);
         }
@@ -206,7 +206,7 @@ internal sealed class D6Joint : JointModel
             writer.AngularDrive(x1, DriveAngularVelocity.X, error, DriveTwist);
         }
 
-        if (swing && writer.IsMotion(DriveSwing))
+        if (swing && writer.Prescribed(DriveSwing) == Prescribed.Position)
         {
             if (isSwing1Free)
             {

@@ -52,6 +52,19 @@ internal struct ConeLimit
     public LimitResponse Response;
 }
 
+/// <summary>What a drive prescribes, by whatever force up to its limit.</summary>
+internal enum Prescribed : byte
+{
+    /// <summary>Nothing: it is a spring-damper.</summary>
+    Nothing,
+
+    /// <summary>The gap to its goal, which closes at Stiffness / Damping of itself a second.</summary>
+    Position,
+
+    /// <summary>Its speed.</summary>
+    Speed,
+}
+
 /// <summary>A spring-damper towards a target (PxD6JointDrive).</summary>
 internal struct DriveModel
 {
@@ -67,11 +80,8 @@ internal struct DriveModel
     /// <summary>Gains are per unit of effective mass of the body pair.</summary>
     public bool IsAcceleration;
 
-    /// <summary>
-    /// Where limits are met exactly, see <see cref="JointModel.LimitsFromAfar"/>, the goal is no spring's but a prescribed motion's: the gap closes at
-    /// Stiffness / Damping of itself a second, by whatever force up to ForceLimit.
-    /// </summary>
-    public bool IsMotion;
+    /// <summary>What stands in for the spring-damper where limits are met exactly, see <see cref="JointModel.LimitsFromAfar"/>.</summary>
+    public Prescribed Prescribes;
 
     /// <summary>A drive without gains has no rows.</summary>
     public readonly bool IsActive => Stiffness != 0 || Damping != 0;

@@ -127,12 +127,12 @@ internal ref struct RowWriter
 
     /// <summary>Spring-damper along a line through frame 1's origin: C = target - ordinate, J as a linear row.</summary>
     public void LinearDrive(Vector3d axis, double velocityTarget, double error, in DriveModel drive) =>
-        Drive(ref LinearRow(axis, _lever0, _lever1, error), velocityTarget, drive, IsMotion(drive));
+        Drive(ref LinearRow(axis, _lever0, _lever1, error), velocityTarget, drive, Prescribed(drive));
 
     /// <summary>Spring-damper on the relative angular velocity along an axis.</summary>
     public void AngularDrive(Vector3d axis, double velocityTarget, double error, in DriveModel drive, SolveHint hint = SolveHint.None)
     {
-        Drive(ref AngularRow(axis, error, hint: hint), velocityTarget, drive, IsMotion(drive));
+        Drive(ref AngularRow(axis, error, hint: hint), velocityTarget, drive, Prescribed(drive));
     }
 
     /// <summary>A velocity motor: Cdot = J.(w0 - w1) with J = -axis is driven to the target within the limits.</summary>
@@ -171,23 +171,28 @@ internal ref struct RowWriter
         }
     }
 
-    /// <summary>Whether a drive's rows prescribe a motion.</summary>
-    public bool IsMotion(in DriveModel drive) => _everyLimit && drive.IsMotion;
+    /// <summary>What a drive's rows prescribe.</summary>
+    public Prescribed Prescribed(in DriveModel drive) => _everyLimit ? drive.Prescribes : default;
 
-    private static void Drive(ref ConstraintRow row, double velocityTarget, in DriveModel drive, bool isMotion)
+    private static void Drive(ref ConstraintRow row, double velocityTarget, in DriveModel drive, Prescribed prescribed)
     {
         row.Minimum = -drive.ForceLimit;
         row.Maximum = drive.ForceLimit;
-        if (isMotion)
+        row.VelocityTarget = velocityTarget;
+        row.Flags |= RowFlags.HasDriveLimit | RowFlags.Drive;
+        if (prescribed == Joints.Prescribed.Position)
         {
             row.Stiffness = drive.Stiffness / drive.Damping;
             row.VelocityTarget = -row.Stiffness * row.GeometricError;
-            row.Flags |= RowFlags.HasDriveLimit | RowFlags.Drive | RowFlags.Motion;
+            row.Flags |= RowFlags.Motion;
+        }
+
+        if (prescribed != Joints.Prescribed.Nothing)
+        {
             return;
         }
 
-        row.VelocityTarget = velocityTarget;
-        row.Flags |= RowFlags.Spring | RowFlags.HasDriveLimit | RowFlags.Drive;
+        row.Flags |= RowFlags.Spring;
         if (drive.IsAcceleration)
         {
             row.Flags |= RowFlags.AccelerationSpring;

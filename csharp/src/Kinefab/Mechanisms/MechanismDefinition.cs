@@ -58,7 +58,7 @@ internal sealed class MechanismDefinition
                 {
                     joints.Add(new JointDefinition(i, c, joint, bodyOf[i], Connected(joint)));
                 }
-                else if (objects[i].Components[c] is ArticulationBody link && LinkJoint.Of(scene.Document, i) is Document.Joint held)
+                else if (objects[i].Components[c] is ArticulationBody link && scene.Held(i) is Document.Joint held)
                 {
                     joints.Add(new JointDefinition(i, c, held, bodyOf[i], Connected(held), link));
                 }

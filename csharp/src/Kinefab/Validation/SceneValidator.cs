@@ -26,7 +26,7 @@ public static class SceneValidator
         var findings = new Findings((limits ?? SceneLimits.Default).MaxFindings);
         Descriptions(document, findings);
         HierarchyPlaces places = GameObjects(document, findings, cancellation);
-        Lists(document, findings);
+        Lists(document, places, findings);
         Buffers(document, findings, cancellation);
         ValidScene? scene = findings.Errors == 0 ? new ValidScene(document, places) : null;
         if (scene is not null)
@@ -61,15 +61,16 @@ public static class SceneValidator
             StructureRules.Id(objects[i], i, ids, at);
             StructureRules.Role(objects[i], i, ref ground, at);
             places.Add(objects[i]);
-            GameObject(document, i, places.BodyOf(i) is int body ? objects[body].Body : null, findings);
+            GameObject(document, places, i, findings);
         }
 
         return places;
     }
 
-    private static void GameObject(SceneDocument document, int index, Rigidbody? nearestBody, Findings findings)
+    private static void GameObject(SceneDocument document, HierarchyPlaces places, int index, Findings findings)
     {
         ReadOnlySpan<GameObject> objects = document.GameObjectSpan;
+        Rigidbody? nearestBody = places.BodyOf(index) is int mover ? objects[mover].Body : null;
         GameObject gameObject = objects[index];
         ReadOnlySpan<Component> components = gameObject.ComponentSpan;
         var at = new Place(findings, "gameObjects", index);
@@ -105,7 +106,7 @@ public static class SceneValidator
                     LinkRules.LimitsOrder(link, place);
                     LinkRules.LockedDrives(link, place);
                     LinkRules.SphericalLocks(link, place);
-                    LinkRules.Tree(document, index, place);
+                    LinkRules.Tree(document, places, index, place);
                     break;
                 case Collider collider:
                     Collider(collider, document, nearestBody, place);
@@ -196,14 +197,14 @@ public static class SceneValidator
         DriveRules.MaximumForceZero(joint, at);
     }
 
-    private static void Lists(SceneDocument document, Findings findings)
+    private static void Lists(SceneDocument document, HierarchyPlaces places, Findings findings)
     {
         for (int i = 0; i < document.Materials.Count; i++)
             LookRules.Material(document.Materials[i], document.Images.Count, new Place(findings, "materials", i));
         for (int i = 0; i < document.PhysicsMaterials.Count; i++)
             ColliderRules.Material(document.PhysicsMaterials[i], new Place(findings, "physicsMaterials", i));
         for (int i = 0; i < document.Couplings.Count; i++)
-            CouplingRules.Check(document.Couplings[i], document, new Place(findings, "couplings", i));
+            CouplingRules.Check(document.Couplings[i], document, places, new Place(findings, "couplings", i));
         for (int i = 0; i < document.IgnoredCollisions.Count; i++)
             StructureRules.Ignored(document.IgnoredCollisions[i], document.GameObjects.Count, new Place(findings, "ignoredCollisions", i));
         for (int i = 0; i < document.Animations.Count; i++)
@@ -266,7 +267,7 @@ public static class SceneValidator
             {
                 if (components[c] is AnchoredJoint { Enabled: true } joint)
                     Anchors(joint, scene, i, new Place(findings, "gameObjects", i, c));
-                else if (components[c] is ArticulationBody link && LinkJoint.Parent(scene.Document, i) is int above)
+                else if (components[c] is ArticulationBody link && scene.LinkAbove(i) is int above)
                     LinkRules.Anchors(link, scene.WorldTransform(i), scene.WorldTransform(above), new Place(findings, "gameObjects", i, c));
             }
         }

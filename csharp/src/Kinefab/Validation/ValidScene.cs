@@ -84,13 +84,19 @@ public sealed partial class ValidScene
     /// <param name="gameObject">Index of the GameObject.</param>
     /// <returns>True for the one link of an articulation that hangs on no other.</returns>
     /// <exception cref="ArgumentOutOfRangeException">There is no such GameObject.</exception>
-    public bool IsRootLink(int gameObject) => Document.GameObjects[Index(gameObject)].Link is not null && LinkJoint.Parent(Document, gameObject) is null;
+    public bool IsRootLink(int gameObject) => Document.GameObjects[Index(gameObject)].Link is not null && places.LinkAbove(gameObject) is null;
 
     /// <summary>The GameObject whose Rigidbody moves this one: itself or its nearest ancestor that has one; null: nothing does.</summary>
     /// <param name="gameObject">Index of the GameObject.</param>
     /// <returns>Index of a GameObject, or null.</returns>
     /// <exception cref="ArgumentOutOfRangeException">There is no such GameObject.</exception>
     public int? BodyOf(int gameObject) => places.BodyOf(Index(gameObject));
+
+    /// <summary>The GameObject of the link above one; null: there is none.</summary>
+    internal int? LinkAbove(int gameObject) => places.LinkAbove(gameObject);
+
+    /// <summary>A GameObject's link as a joint to the link above; null for a root, and without one.</summary>
+    internal Joint? Held(int gameObject) => LinkJoint.Of(Document, places, gameObject);
 
     /// <summary>Whether a GameObject and all above it are active.</summary>
     internal bool IsActive(int gameObject) => places.IsActive(gameObject);
@@ -119,7 +125,7 @@ public sealed partial class ValidScene
         }
 
         for (int i = 0; i < Document.GameObjects.Count; i++)
-            joints += LinkJoint.Of(Document, i) is null ? 0 : 1;
+            joints += Held(i) is null ? 0 : 1;
 
         return $"scene of {Document.GameObjects.Count} objects, {bodies} bodies, {joints} joints, {Document.Couplings.Count} couplings; {Report}";
     }
@@ -131,7 +137,7 @@ public sealed partial class ValidScene
     private Joint JointAt(int gameObject, int component, string argument)
     {
         IReadOnlyList<Component> components = Document.GameObjects[Index(gameObject)].Components;
-        if ((uint)component < (uint)components.Count && components[component] is ArticulationBody && LinkJoint.Of(Document, gameObject) is Joint held)
+        if ((uint)component < (uint)components.Count && components[component] is ArticulationBody && Held(gameObject) is Joint held)
             return held;
         return (uint)component < (uint)components.Count && components[component] is Joint joint
             ? joint

@@ -12,7 +12,7 @@ from ..diagnostics import Report, named
 from ..findings import JointFinding
 from ..model import Coupling, Joint, Scene
 from ..options import Closures
-from ..rigid import rigid_groups
+from ..rigid import is_rigid, rigid_groups
 from .assembly.assemble import Assembly, assemble
 from .assembly.bases import built_together
 from .couplings.rehanging import rehung
@@ -93,7 +93,11 @@ def _analysed(scene: Scene, options: AnalysisOptions, progress: Callable[[float]
     couplings = on_links(assembly, links, couplings_of(assembly, links, closed, report), closed, report)
     stated = len(couplings)
     couplings = without_standing(assembly, links, couplings, closed, report)
-    as_stated = len(closed.nodes) == len(assembly.scene.nodes) and len(couplings) == stated
+    as_stated = (
+        len(closed.nodes) == len(assembly.scene.nodes)
+        and len(couplings) == stated
+        and not any(is_rigid(link.joint) for link in links)
+    )
     couplings += symmetric_couplings(assembly, tree, links, closed, report)
     fixed, built = _fixed(assembly), built_together(assembly)
     groups = rigid_groups(scene, [*fixed, *built])
@@ -110,7 +114,7 @@ def _analysed(scene: Scene, options: AnalysisOptions, progress: Callable[[float]
         built=built,
         islands=islands_of(assembly, tree, links, found.aside, couplings),
         idle=sorted(
-            idle_freedoms(assembly) if as_stated else _idle(assembly, links, couplings, closed),
+            idle_freedoms(assembly) if as_stated else _idle(assembly, [*joints, *found.aside], couplings, closed),
             key=lambda idle: idle.nodes,
         ),
         joints=[*joints, *found.aside],
@@ -169,14 +173,14 @@ def _fixed(assembly: Assembly) -> tuple[tuple[int | None, int], ...]:
 
 
 def _idle(
-    assembly: Assembly, links: list[Link], couplings: list[Coupling], scene: Scene
+    assembly: Assembly, joints: list[Joint], couplings: list[Coupling], scene: Scene
 ) -> list[IdleFreedom]:
-    """Over the bodies that are exported.  scene: with middle bodies, at the closed pose.
+    """Over the bodies that are exported.  joints: with those by which the source itself fixes parts.  scene: with middle bodies, at the
+    closed pose.
 
     The rod that stands for a distance moves along with what it holds, or leaves it alone where several meet; what a coupling holds
-    is one body.
+    is one body, and so are two whose common velocities are all obstructed.
     """
-    joints = [link.joint for link in links]
     return idle_freedoms(assemble(welded(scene, _fixed(assembly), joints, couplings), Report()))
 
 

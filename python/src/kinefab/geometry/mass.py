@@ -10,7 +10,7 @@ from itertools import permutations
 import numpy as np
 
 from ..model import MassProperties
-from ..spatial import Array, BoolArray, IntArray, Pose, bounds
+from ..spatial import Array, BoolArray, IntArray, Pose, bounds, skew
 
 STAND_IN_DENSITY = 1000.0
 """kg/m^3 of the ball that stands in for an inertia that is not stated at all."""
@@ -131,10 +131,15 @@ def combined(bodies: Iterable[MassProperties]) -> MassProperties:
 def principal(inertia: Array) -> tuple[Array, Array]:
     """Principal moments, shape (3,), and the proper rotation whose columns are their axes, shape (3, 3).
 
-    Of the 24 ways to name and point the axes the one closest to the given frame is taken.
+    Of the 24 ways to name and point the axes the one closest to the given frame is taken; likewise of all that there are where two
+    moments are equal.
     """
     moments, axes = _principal(np.ascontiguousarray(inertia, dtype=np.float64).tobytes())
     return moments.copy(), axes.copy()
+
+
+EQUAL = 1e-9
+"""Of the largest moment: by how much two may differ and be one, whose axes rounding would choose."""
 
 
 @lru_cache(maxsize=4096)
@@ -146,6 +151,10 @@ def _principal(inertia_bytes: bytes) -> tuple[Array, Array]:
     if np.abs(symmetric - np.diag(diagonal)).max() <= DIAGONAL * np.abs(diagonal).max():
         return diagonal.copy(), np.eye(3)
     moments, axes = np.linalg.eigh(symmetric)
+    for equal, lone in ((moments[1] - moments[0], 2), (moments[2] - moments[1], 0)):
+        if equal <= EQUAL * moments[2]:
+            axes = _nearest_with(axes[:, lone])
+            return np.diag(axes.T @ symmetric @ axes).copy(), axes
     along = np.abs(axes).tolist()
     order = max(permutations(range(3)), key=lambda p: sum(along[i][p[i]] for i in range(3)))
     axes, moments = axes[:, order], moments[list(order)]
@@ -157,6 +166,15 @@ def _principal(inertia_bytes: bytes) -> tuple[Array, Array]:
 def is_possible(inertia: Array, tolerance: float = 1e-6) -> bool:
     """Whether a body can have this inertia."""
     return bool(are_possible(principal_moments(inertia), tolerance))
+
+
+def _nearest_with(axis: Array) -> Array:
+    """The rotation nearest to none that has the axis, or its opposite, for a column."""
+    column = int(np.abs(axis).argmax())
+    to = axis * np.sign(axis[column])
+    own = np.eye(3)[column]
+    across = np.cross(own, to)
+    return np.eye(3) + skew(across) + skew(across) @ skew(across) / (1.0 + float(own @ to))
 
 
 def principal_moments(inertia: Array) -> Array:

@@ -55,6 +55,21 @@ def with_led_joints_on_light_bodies(scene: UnityScene) -> UnityScene:
     return replace(scene, gameObjects=tuple(objects), couplings=couplings)
 
 
+def led_bodies(scene: UnityScene) -> dict[int, int]:
+    """The way back: of each light body the object whose led body it counts for."""
+    found: dict[int, int] = {}
+    for index, own in enumerate(scene.gameObjects):
+        kinds = tuple(type(c) for c in own.components[:2])
+        if kinds != (Rigidbody, FixedJoint) or len(own.components) != 3 or not isinstance(own.components[2], Joint):
+            continue
+        hold = own.components[1]
+        assert isinstance(hold, Joint)
+        led = hold.connectedBody
+        if led is not None and not hold.id and own.id.startswith(f"{scene.gameObjects[led].id}/counted:"):
+            found[index] = led
+    return found
+
+
 def _holds_nothing(objects: list[GameObject], at: JointCoordinate) -> bool:
     """Whether the solver moves neither side of a joint."""
     joint = objects[at.gameObject].components[at.component]

@@ -16,6 +16,7 @@ from ..options import Ground
 from ..rigid import RigidGroups, active_nodes, is_dynamic, is_kinematic
 from . import frames
 from .apart import apart_id, apart_joint
+from .as_stated import with_stated as with_stated_of_part
 from .assets.clips import map_clip
 from .assets.meshes import MappedMeshes
 from .assets.surfaces import map_physics_material, map_surface
@@ -24,8 +25,9 @@ from .bodies.rigidbodies import Rigidbodies, carried_along, held_below, map_rigi
 from .bodies.standing import Standing, find_standing
 from .constraints import map_constraint
 from .joints.couplings import map_coupling, screw_couplings
-from .joints.mapping import UnityJoint, map_joint
-from .joints.passive import OWN, stated_of, unbounded, with_passive_drives
+from .joints.mapping import UnityJoint, map_joint, with_stated
+from .joints.passive import with_passive_drives
+from .joints.source_joint import source_of
 from .mobility import map_mobility
 from .placing import at_home, local_transforms, transform_of, with_all_below
 from .scene import (
@@ -43,7 +45,6 @@ from .scene import (
 )
 from .scene import Joint as JointComponent
 from .scene.colliders.collider import Collider as UnityCollider
-from .scene.joints.joint import AnchoredJoint
 from .scene.vectors import vector3
 
 GROUND_ID = "kinefab:ground"
@@ -151,10 +152,11 @@ class _Builder:
             above = self.ground if parent is None else self.object_of[parent]
             if beside[i] != node.parent:
                 self.report.kept(f"part {node.id}", node.where, "GROUNDED_STANDS_BESIDE", node=node.id)
+            extras = with_stated_of_part(self.scene, i, self.groups.standing, self.rigidbodies.carrier_of[i] is None)
             index = self._object(
                 GameObject(
                     node.id, node.name, above, active[i], placed[i],
-                    layer=node.layer, tag=node.tag, definition=node.definition or "", extras=dict(node.extras),
+                    layer=node.layer, tag=node.tag, definition=node.definition or "", extras=extras,
                 )
             )  # fmt: skip
             self.object_of.append(index)
@@ -269,7 +271,7 @@ class _Builder:
                 own.append(Rigidbody(useGravity=False, isKinematic=True))
 
     def add_joints(self) -> None:
-        for joint in self.scene.joints:
+        for number, joint in enumerate(self.scene.joints):
             driven = with_passive_drives(joint, self.report)
             finding = self.findings.get(joint.id)
             mapped = map_joint(
@@ -279,11 +281,8 @@ class _Builder:
                 continue
             connected = self.ground if mapped.connected is None else self.object_of[mapped.connected]
             component = replace(mapped.component, connectedBody=connected, **mapped.beside(self.scene))
-            if isinstance(component, AnchoredJoint):
-                names = {i: at.name for i, at in mapped.coordinates.items()}
-                component = replace(component, **stated_of(joint, names))
-                own = [name for i, name in names.items() if unbounded(joint.freedoms[i]) and joint.slerp is None]
-                component = replace(component, extras={**component.extras, OWN: own}) if own else component
+            component = with_stated(component, joint, mapped.coordinates)
+            component = replace(component, extras={**component.extras, **source_of(joint, number, mapped.on_a)})
             components = self.components[self.object_of[mapped.owner]]
             components.append(component)
             self.joints[joint.id] = (mapped, len(components) - 1)

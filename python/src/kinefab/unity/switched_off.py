@@ -10,10 +10,10 @@ from ..model import Joint as ModelJoint
 from ..model import Scene
 from ..rigid import RigidGroups
 from .contact.overlaps import bodies_of
-from .joints.mapping import map_joint
-from .joints.passive import stated_of, with_passive_drives
+from .joints.mapping import map_joint, with_stated
+from .joints.passive import with_passive_drives
+from .joints.source_joint import source_of
 from .scene import Component, Coupling, Joint, JointCoordinate, UnityScene
-from .scene.joints.joint import AnchoredJoint
 
 
 def with_switched_off(mapped: UnityScene, scene: Scene, groups: RigidGroups, report: Report) -> UnityScene:
@@ -32,8 +32,8 @@ def with_switched_off(mapped: UnityScene, scene: Scene, groups: RigidGroups, rep
 
     added: dict[int, list[Component]] = {}
     ground = next((i for i, entry in enumerate(mapped.gameObjects) if entry.role == "ground"), None)
-    for joint in scene.switched_off:
-        found = _component(joint, scene, groups, carrier, report)
+    for number, joint in enumerate(scene.switched_off, len(scene.joints)):
+        found = _component(joint, number, scene, groups, carrier, report)
         if found is not None:
             owner, connected, component = found
             other = ground if connected is None else index_of[scene.nodes[connected].id]
@@ -45,7 +45,7 @@ def with_switched_off(mapped: UnityScene, scene: Scene, groups: RigidGroups, rep
 
 
 def _component(
-    joint: ModelJoint, scene: Scene, groups: RigidGroups, carrier: Callable[[int], int | None], report: Report
+    joint: ModelJoint, number: int, scene: Scene, groups: RigidGroups, carrier: Callable[[int], int | None], report: Report
 ) -> tuple[int, int | None, Joint] | None:
     """Owner, connected node and component; None, and the report says why, where there is none."""
     feature, made = f"joint {joint.id}", Report()
@@ -66,9 +66,8 @@ def _component(
     if mapped is None:
         return None
     component = replace(mapped.component, enabled=False, **mapped.beside(scene))
-    if isinstance(component, AnchoredJoint):
-        names = {i: at.name for i, at in mapped.coordinates.items()}
-        component = replace(component, **stated_of(joint, names))
+    component = with_stated(component, joint, mapped.coordinates)
+    component = replace(component, extras={**component.extras, **source_of(joint, number, mapped.on_a)})
     if not lost:
         report.kept(feature, joint.where, "JOINT_DISABLED", joint=joint.id)
     return mapped.owner, mapped.connected, component

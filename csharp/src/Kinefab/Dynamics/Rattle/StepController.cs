@@ -105,8 +105,8 @@ internal sealed class StepController
     /// <param name="stalled">Takes them.</param>
     public void AddStalled(Island island, List<StalledJoint> stalled)
     {
-        double weight = _batch.ActiveSet?.StalledWeight() ?? 0;
-        if (weight > 0)
+        double weight = _batch.ActiveSet?.StalledWeight() ?? -1;
+        if (weight >= 0)
         {
             AddStalled(island, stalled, weight);
         }
@@ -209,12 +209,24 @@ internal sealed class StepController
         _start.Save(_batch);
         Audit(dt);
         _dt = dt;
+        bool hasLooked = _batch.ActiveSet != null && _batch.ActiveSet.HasHeld();
+        if (hasLooked)
+        {
+            FindHeldDrives(dt);
+        }
+
         while (!TrySubsteps(dt, halvings, tolerance) || !IsEnergyKept(halvings, dt))
         {
             Return(_start, dt);
             _hasMoved = false;
             bool wasEager = _part.IsEager;
             _part.IsEager = true;
+            if (!hasLooked && _batch.ActiveSet != null && _batch.ActiveSet.HasEndless())
+            {
+                hasLooked = true;
+                FindHeldDrives(dt);
+            }
+
             if (!hasSettled)
             {
                 hasSettled = true;
@@ -243,6 +255,12 @@ internal sealed class StepController
 
         Damp(0);
         still.Remember(new StepVerdict { Stops = DampedSteps - stops, Worst = _worst, Error = _worstError, Troubles = _troubles });
+    }
+
+    private void FindHeldDrives(double dt)
+    {
+        HeldDrives.Find(_batch, _batch.ActiveSet!, _exact);
+        Return(_start, dt);
     }
 
     // The step as it was made before from the same state.

@@ -57,7 +57,7 @@ internal sealed class FiniteMobility
         int count = 0;
         foreach (double length in ProbeLengths)
         {
-            double[] shares = LeftOf(space.Basis, state, length, cancellation);
+            double[] shares = LeftOf(space.Basis, state, length, cancellation).Values.Values;
             count = Array.FindAll(shares, share => share > Survives).Length;
             if (count == Array.FindAll(shares, share => share > Whole).Length)
             {
@@ -67,6 +67,13 @@ internal sealed class FiniteMobility
 
         LookAround(start, space, count, cancellation);
         return count;
+    }
+
+    /// <summary>Of the velocities at a state, those directions that a trial step leaves most of, falling.</summary>
+    public List<double[]> Kept(VelocitySpace space, MechanismState state, int count, CancellationToken cancellation)
+    {
+        (List<double[]> left, SingularValues values) = LeftOf(space.Basis, state, ProbeLengths[0], cancellation);
+        return Directions(left, values, Math.Min(count, values.Rank(LeftOfObstructed / ProbeLengths[0])));
     }
 
     // The walk may have taken a branch along which part of the mechanism stays folded: then others are tried.
@@ -121,9 +128,9 @@ internal sealed class FiniteMobility
         return left;
     }
 
-    // Shares, falling, of independent directions that are left of velocities. An obstructed one takes a motion back along with it: what is
-    // left of velocities that hold both is tried again by itself.
-    private double[] LeftOf(IReadOnlyList<double[]> velocities, MechanismState state, double length, CancellationToken cancellation)
+    // What is left of velocities, and shares, falling, of the independent directions in it. An obstructed one takes a motion back along with
+    // it: what is left of velocities that hold both is tried again by itself.
+    private (List<double[]> Left, SingularValues Values) LeftOf(IReadOnlyList<double[]> velocities, MechanismState state, double length, CancellationToken cancellation)
     {
         double gone = LeftOfObstructed / length;
         MechanismState moved = state.Clone();
@@ -144,7 +151,7 @@ internal sealed class FiniteMobility
             SingularValues values = Decomposed(left);
             if (round == Rounds || (areClosed && !Array.Exists(values.Values, share => share > gone && share < Whole)))
             {
-                return values.Values;
+                return (left, values);
             }
 
             velocities = Directions(left, values, values.Rank(gone));

@@ -15,8 +15,14 @@ internal sealed class IdleFreedoms
     // How far the cosine between two joints' twists, squared, may be from 1.
     private const double Shared = 1e-12;
 
-    // Length of a motion beside those already found from which it is another one.
-    private const double New = 1e-6;
+    // Length of a motion beside those already found from which it is another one: where velocities are obstructed, motions are known to a
+    // step's curvature.
+    private const double New = 1e-2;
+
+    // Share of an exactly known motion up to which a block has no part in it.
+    private const double Sure = 1e-6;
+
+    private const int Width = 6;
 
     // Difference of two unit twists, along any direction, beyond which they are not shared.
     private const double Near = 4e-6;
@@ -32,7 +38,7 @@ internal sealed class IdleFreedoms
     private readonly CutPairs _cuts;
     private readonly List<(int Node, double[] Twist)[]> _known = new();
     private readonly List<int>[] _knownOf;
-    private readonly int[] _left;
+    private readonly Dictionary<int, int> _left = new();
     private readonly List<IdleFreedom> _found = new();
 
     private IdleFreedoms(Mechanism mechanism, IndependentLinkages parts, LoopMobility[] loops, MechanismState closed)
@@ -44,7 +50,6 @@ internal sealed class IdleFreedoms
         _graph = new JointGraph(mechanism, parts, closed);
         _cuts = new CutPairs(_graph.Members.Count, _graph.Pairs);
         _knownOf = new List<int>[_graph.Members.Count];
-        _left = Array.ConvertAll(loops, loop => loop.Finite < 2 ? 0 : loop.Finite);
     }
 
     /// <summary>All of a mechanism.</summary>
@@ -61,6 +66,7 @@ internal sealed class IdleFreedoms
         }
 
         var idle = new IdleFreedoms(mechanism, parts, loops, closed);
+        idle.CountFreedomsOfBlocks(cancellation);
         for (int node = 1; node < idle._graph.Members.Count; node++)
         {
             idle.AddSingle(node, cancellation);
@@ -134,21 +140,16 @@ internal sealed class IdleFreedoms
             return;
         }
 
-        // The joints may leave the twist to first order alone, as a slot across does.
-        int count = Alone(nodes, cancellation);
         int found = 0;
-        foreach (double[] twist in twists)
+        foreach (double[] twist in ThatGoOn(nodes, twists, cancellation))
         {
-            found += found < count && IsNew(nodes, twist) ? 1 : 0; // a ram's spin is that of its tube and of its piston, if these turn
+            found += IsNew(nodes, twist) ? 1 : 0; // a ram's spin is that of its tube and of its piston, if these turn
         }
 
         if (found > 0)
         {
             _found.Add(new IdleFreedom(GameObjects(nodes), found));
-            if (_graph.Blocks[edge] >= 0)
-            {
-                _left[_graph.Blocks[edge]] -= found;
-            }
+            _left[_cuts.BlockOf[edge]] -= found;
         }
     }
 
@@ -162,8 +163,89 @@ internal sealed class IdleFreedoms
         return twists;
     }
 
-    // Freedoms of an edge's block that are not yet known to be idle; none where it has but one; of a block that nothing ties, any number.
-    private int Left(int edge) => _graph.Blocks[edge] < 0 ? int.MaxValue : _left[_graph.Blocks[edge]];
+    // Freedoms of an edge's block of joints that are not yet known to be idle; none where it has but one.
+    private int Left(int edge) => _left[_cuts.BlockOf[edge]];
+
+    // What each block of joints can do in itself. Couplings close no loop: what they tie may hold several blocks, and what hangs on them.
+    private void CountFreedomsOfBlocks(CancellationToken cancellation)
+    {
+        var edgesOf = new SortedDictionary<int, List<int>>();
+        for (int edge = 0; edge < _cuts.BlockOf.Length; edge++)
+        {
+            if (_cuts.BlockOf[edge] >= 0)
+            {
+                if (!edgesOf.TryGetValue(_cuts.BlockOf[edge], out List<int>? edges))
+                {
+                    edgesOf.Add(_cuts.BlockOf[edge], edges = new List<int>());
+                }
+
+                edges.Add(edge);
+            }
+        }
+
+        foreach ((int block, List<int> edges) in edgesOf)
+        {
+            var nodes = new SortedSet<int>();
+            bool isTied = true;
+            foreach (int edge in edges)
+            {
+                nodes.Add(_graph.Pairs[edge].A);
+                nodes.Add(_graph.Pairs[edge].B);
+                isTied &= _graph.Blocks[edge] >= 0;
+            }
+
+            int count = isTied ? FreedomsOf(nodes, _loops[_graph.Blocks[edges[0]]], cancellation) : int.MaxValue; // of a block that nothing ties, any number
+            _left.Add(block, count < 2 ? 0 : count);
+        }
+    }
+
+    private int FreedomsOf(SortedSet<int> nodes, LoopMobility loop, CancellationToken cancellation)
+    {
+        int bodies = 0;
+        foreach (int node in nodes)
+        {
+            bodies += _graph.Members[node].FindAll(body => loop.Part.IndexOf(body) >= 0).Count;
+        }
+
+        if (loop.Finite < 2 || bodies >= loop.Part.Bodies.Length)
+        {
+            return loop.Finite;
+        }
+
+        IReadOnlyList<double[]> motions = loop.Motions(cancellation);
+        var moved = new double[Width * nodes.Count, motions.Count];
+        for (int m = 0; m < motions.Count; m++)
+        {
+            double[] first = TwistOf(loop, BodyOf(nodes.Min), motions[m]);
+            int row = 0;
+            foreach (int node in nodes)
+            {
+                double[] twist = TwistOf(loop, BodyOf(node), motions[m]);
+                for (int i = 0; i < Width; i++)
+                {
+                    moved[row++, m] = twist[i] - first[i];
+                }
+            }
+        }
+
+        // Beside a steep rack a motion that is known exactly may be a small share of all that move.
+        return new SingularValues(moved).Rank(loop.Finite < loop.FirstOrder ? New : Math.Max(Sure, loop.Here.Noise));
+
+        int BodyOf(int node) => _graph.Members[node].Count == 0 ? -1 : loop.Part.IndexOf(_graph.Members[node][0]);
+    }
+
+    // At the mechanism's origin, in its lengths; zero of what is not among the loop's bodies, and stands still.
+    private static double[] TwistOf(LoopMobility loop, int body, double[] motion)
+    {
+        Vector3d linear = Vector3d.Zero;
+        Vector3d angular = Vector3d.Zero;
+        if (body >= 0)
+        {
+            loop.Here.Twist(body, motion, out linear, out angular);
+        }
+
+        return new[] { linear.X, linear.Y, linear.Z, angular.X, angular.Y, angular.Z };
+    }
 
     private double Tolerance(int edge)
     {
@@ -264,8 +346,9 @@ internal sealed class IdleFreedoms
         return true;
     }
 
-    // Freedoms of finite motion of some nodes while all others stand still.
-    private int Alone(List<int> nodes, CancellationToken cancellation)
+    // What of the twists of some nodes is a finite motion of theirs, as one, while all others stand still: joints may leave a twist to first
+    // order alone, as a slot across does.
+    private List<double[]> ThatGoOn(List<int> nodes, List<double[]> twists, CancellationToken cancellation)
     {
         var moving = new HashSet<int>();
         foreach (int node in nodes)
@@ -273,7 +356,25 @@ internal sealed class IdleFreedoms
             moving.UnionWith(_graph.Members[node]);
         }
 
-        return new LoopMobility(_parts.Alone(moving), _closed, cancellation).Finite;
+        var one = new LoopMobility(_parts.AsOne(moving, _closed.Poses), _closed, cancellation);
+        if (one.Finite == 0 || one.Finite >= twists.Count)
+        {
+            return one.Finite == 0 ? new List<double[]>() : twists;
+        }
+
+        IReadOnlyList<double[]> motions = one.Motions(cancellation);
+        int body = one.Part.IndexOf(_graph.Members[nodes[0]][0]);
+        var along = new double[motions.Count, twists.Count];
+        for (int m = 0; m < motions.Count; m++)
+        {
+            double[] motion = TwistOf(one, body, motions[m]);
+            for (int i = 0; i < twists.Count; i++)
+            {
+                along[m, i] = DenseVector.Dot(motion, twists[i]);
+            }
+        }
+
+        return TwistSpan.Mixtures(twists, new SingularValues(along), 0, motions.Count);
     }
 
     private List<int> GameObjects(List<int> nodes)

@@ -111,7 +111,7 @@ internal sealed class IndependentLinkages
         }
 
         bodies.Remove(JointModel.World);
-        return Make(moving, ToArray(bodies), ToArray(joints), _couplings[block], joint => Joint(block, joint, poses));
+        return Make(moving, ToArray(bodies), ToArray(joints), _couplings[block], joint => Joint(block, joint, poses), new List<(int, D6Joint)>());
 
         // What stands between two bodies of the block, the lower one's parent or a closing joint's end, moves with the upper one.
         void Carry(int body)
@@ -130,9 +130,10 @@ internal sealed class IndependentLinkages
         }
     }
 
-    /// <summary>Some bodies with all that joins them to others, which stand still.</summary>
+    /// <summary>Some bodies, which hang together, as one body with all that joins it to others, which stand still.</summary>
     /// <param name="moving">The bodies.</param>
-    public IndependentLinkage Alone(HashSet<int> moving)
+    /// <param name="poses">Where they are against each other.</param>
+    public IndependentLinkage AsOne(HashSet<int> moving, Pose[] poses)
     {
         var joints = new SortedSet<int>();
         foreach (int body in moving)
@@ -159,7 +160,17 @@ internal sealed class IndependentLinkages
         }
 
         bodies.Remove(JointModel.World);
-        return Make(moving, ToArray(bodies), ToArray(joints), couplings, joint => _whole.Joints[joint]);
+        var inner = new List<int>();
+        foreach (int joint in joints)
+        {
+            if (moving.Contains(_whole.Joints[joint].Body0) && moving.Contains(_whole.Joints[joint].Body1))
+            {
+                inner.Add(joint);
+            }
+        }
+
+        // The inner joints stay beside what holds them, since couplings may count from their coordinates.
+        return Make(moving, ToArray(bodies), ToArray(joints), couplings, joint => _whole.Joints[joint], inner.ConvertAll(joint => (joint, Held(_whole.Joints[joint], poses))));
     }
 
     private IEnumerable<int> CoupledJoints(PositionCoupling coupling)
@@ -179,8 +190,10 @@ internal sealed class IndependentLinkages
         return isHeld ? Held(_whole.Joints[joint], poses) : _whole.Joints[joint];
     }
 
-    // jointOf: what stands for one of the whole's joints, between which bodies it is being no matter.
-    private IndependentLinkage Make(HashSet<int> moving, int[] bodies, int[] joints, IEnumerable<int> coupled, Func<int, JointModel> jointOf)
+    // jointOf: what stands for one of the whole's joints, between which bodies it is being no matter. beside: what else there is between
+    // the bodies of some of them.
+    private IndependentLinkage Make(
+        HashSet<int> moving, int[] bodies, int[] joints, IEnumerable<int> coupled, Func<int, JointModel> jointOf, List<(int Joint, D6Joint Holds)> beside)
     {
         var isFixed = new bool[bodies.Length];
         for (int i = 0; i < bodies.Length; i++)
@@ -188,13 +201,20 @@ internal sealed class IndependentLinkages
             isFixed[i] = !moving.Contains(bodies[i]);
         }
 
-        var own = new JointModel[joints.Length];
-        var isClosure = new bool[joints.Length];
+        var own = new JointModel[joints.Length + beside.Count];
+        var isClosure = new bool[own.Length];
         for (int j = 0; j < joints.Length; j++)
         {
             JointModel joint = _whole.Joints[joints[j]];
             isClosure[j] = _whole.Tree.ChildOf[joints[j]] < 0;
             own[j] = jointOf(joints[j]).Between(IndexOf(joint.Body0), IndexOf(joint.Body1));
+        }
+
+        for (int i = 0; i < beside.Count; i++)
+        {
+            JointModel joint = _whole.Joints[beside[i].Joint];
+            own[joints.Length + i] = beside[i].Holds.Between(IndexOf(joint.Body0), IndexOf(joint.Body1));
+            isClosure[Array.BinarySearch(joints, beside[i].Joint)] = true;
         }
 
         var coordinates = new List<int>();

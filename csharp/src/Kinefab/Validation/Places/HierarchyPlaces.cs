@@ -11,6 +11,8 @@ internal sealed class HierarchyPlaces
 
     private readonly WorldTransform[] world;
     private readonly int[] bodyOf;
+    private readonly int[] linkOf;
+    private readonly int[] linkAbove;
     private readonly bool[] isActive;
     private int count;
 
@@ -19,6 +21,8 @@ internal sealed class HierarchyPlaces
     {
         world = new WorldTransform[gameObjects];
         bodyOf = new int[gameObjects];
+        linkOf = new int[gameObjects];
+        linkAbove = new int[gameObjects];
         isActive = new bool[gameObjects];
     }
 
@@ -43,6 +47,8 @@ internal sealed class HierarchyPlaces
         int parent = gameObject.Parent is int above && (uint)above < (uint)count ? above : Nobody;
         world[count] = parent == Nobody ? new WorldTransform(pose, local.LocalScale) : world[parent].Child(pose, local.LocalScale);
         bodyOf[count] = gameObject.Body is not null ? count : parent == Nobody ? Nobody : bodyOf[parent];
+        linkAbove[count] = parent == Nobody ? Nobody : linkOf[parent];
+        linkOf[count] = gameObject.Link is not null ? count : linkAbove[count];
         isActive[count] = gameObject.Active && (parent == Nobody || isActive[parent]);
         count++;
     }
@@ -55,4 +61,7 @@ internal sealed class HierarchyPlaces
 
     /// <summary>The GameObject whose Rigidbody moves this one: itself or its nearest ancestor that has one; null: nothing does.</summary>
     internal int? BodyOf(int gameObject) => bodyOf[gameObject] is var body && body != Nobody ? body : null;
+
+    /// <summary>The GameObject of the link above one: its nearest ancestor with an ArticulationBody; null: there is none.</summary>
+    internal int? LinkAbove(int gameObject) => linkAbove[gameObject] is var link && link != Nobody ? link : null;
 }

@@ -15,25 +15,11 @@ internal static class LinkJoint
     // The stiffest drive that PhysX 4.1 makes of the types Target and Velocity is 1e25 times as stiff as 1; in double precision this is as rigid.
     private const double Rigid = 1e9;
 
-    /// <summary>Null for a root.</summary>
-    public static Joint? Of(SceneDocument document, int gameObject)
+    /// <summary>Of a GameObject's link; null for a root, and without one.</summary>
+    public static Joint? Of(SceneDocument document, HierarchyPlaces places, int gameObject)
     {
         ArticulationBody? link = document.GameObjects[gameObject].Link;
-        return link is not null && Parent(document, gameObject) is int parent ? Of(link, parent) : null;
-    }
-
-    /// <summary>The object of the link above: the nearest ancestor that has one; null: the link is a root. Parents may still be wrong, so only earlier ones count.</summary>
-    public static int? Parent(SceneDocument document, int gameObject)
-    {
-        int at = gameObject;
-        while (document.GameObjects[at].Parent is int parent && parent >= 0 && parent < at)
-        {
-            at = parent;
-            if (document.GameObjects[at].Link is not null)
-                return at;
-        }
-
-        return null;
+        return link is not null && places.LinkAbove(gameObject) is int parent ? Of(link, parent) : null;
     }
 
     /// <summary>How far a slide's frame stands along X so that its limits lie alike on both sides; metres.</summary>

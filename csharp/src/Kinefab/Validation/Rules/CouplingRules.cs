@@ -9,7 +9,7 @@ namespace Kinefab.Validation;
 /// <summary>Couplings between joint coordinates.</summary>
 internal static class CouplingRules
 {
-    internal static void Check(Coupling coupling, SceneDocument document, in Place at)
+    internal static void Check(Coupling coupling, SceneDocument document, HierarchyPlaces places, in Place at)
     {
         NumberRules.Finite(at, "offset", coupling.Offset);
         if (coupling.Terms.Count == 0)
@@ -17,7 +17,7 @@ internal static class CouplingRules
             if (coupling.A is null)
                 at.Report("", DiagnosticCodes.FieldMissing, ("field", "a"));
             else
-                Follows(coupling.A, "a", document, at);
+                Follows(coupling.A, "a", document, places, at);
             if (coupling.Ratio is double ratio)
                 NumberRules.Finite(at, "ratio", ratio);
             else
@@ -28,13 +28,13 @@ internal static class CouplingRules
             at.Report(coupling.A is null ? "ratio" : "a", DiagnosticCodes.CouplingTermsBeside);
         }
 
-        Terms(coupling, document, at);
-        Follows(coupling.B, "b", document, at);
+        Terms(coupling, document, places, at);
+        Follows(coupling.B, "b", document, places, at);
         if (coupling.A is JointCoordinate a && Place(a) == Place(coupling.B))
             at.Report("b", DiagnosticCodes.CouplingItself);
     }
 
-    private static void Terms(Coupling coupling, SceneDocument document, in Place at)
+    private static void Terms(Coupling coupling, SceneDocument document, HierarchyPlaces places, in Place at)
     {
         var known = new HashSet<(int, int, Coordinate)>();
         for (int i = 0; i < coupling.Terms.Count; i++)
@@ -42,7 +42,7 @@ internal static class CouplingRules
             string term = "terms/" + Invariant.Text(i);
             JointCoordinate coordinate = coupling.Terms[i].Coordinate;
             NumberRules.Finite(at, term + "/ratio", coupling.Terms[i].Ratio);
-            Follows(coordinate, term + "/coordinate", document, at);
+            Follows(coordinate, term + "/coordinate", document, places, at);
             if (Place(coordinate) == Place(coupling.B))
                 at.Report(term + "/coordinate", DiagnosticCodes.CouplingItself);
             else if (!known.Add(Place(coordinate)))
@@ -51,14 +51,14 @@ internal static class CouplingRules
     }
 
     /// <summary>A coordinate that is there, and moves.</summary>
-    private static void Follows(JointCoordinate coordinate, string side, SceneDocument document, in Place at)
+    private static void Follows(JointCoordinate coordinate, string side, SceneDocument document, HierarchyPlaces places, in Place at)
     {
-        if (Resolve(coordinate, side, document, at) is Joint joint)
+        if (Resolve(coordinate, side, document, places, at) is Joint joint)
             Moves(coordinate, joint, side, at);
     }
 
     /// <summary>The joint that a coordinate belongs to, which must have that coordinate.</summary>
-    private static Joint? Resolve(JointCoordinate coordinate, string side, SceneDocument document, in Place at)
+    private static Joint? Resolve(JointCoordinate coordinate, string side, SceneDocument document, HierarchyPlaces places, in Place at)
     {
         if (!NumberRules.Reference(at, side + "/gameObject", coordinate.GameObject, "gameObjects", document.GameObjects.Count))
             return null;
@@ -71,7 +71,7 @@ internal static class CouplingRules
                 return hinge;
             case ConfigurableJoint joint when coordinate.Coordinate != Coordinate.Angle:
                 return joint;
-            case ArticulationBody when coordinate.Coordinate != Coordinate.Angle && LinkJoint.Of(document, coordinate.GameObject) is Joint link:
+            case ArticulationBody when coordinate.Coordinate != Coordinate.Angle && LinkJoint.Of(document, places, coordinate.GameObject) is Joint link:
                 return link;
             case Joint:
                 at.Report(side + "/coordinate", DiagnosticCodes.CouplingCoordinateMissing, ("coordinate", Word(coordinate.Coordinate)));

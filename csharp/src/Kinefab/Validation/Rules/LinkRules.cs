@@ -63,7 +63,7 @@ internal static class LinkRules
     }
 
     /// <summary>What stands above and beside the link.</summary>
-    internal static void Tree(SceneDocument document, int gameObject, in Place at)
+    internal static void Tree(SceneDocument document, HierarchyPlaces places, int gameObject, in Place at)
     {
         ReadOnlySpan<GameObject> objects = document.GameObjectSpan;
         ArticulationBody link = objects[gameObject].Link!;
@@ -72,20 +72,10 @@ internal static class LinkRules
             hasRigidbody |= component is Rigidbody;
         if (hasRigidbody)
             at.Report("", DiagnosticCodes.LinkAndRigidbody);
-        if (link.Immovable && LinkJoint.Parent(document, gameObject) is not null)
+        if (link.Immovable && places.LinkAbove(gameObject) is not null)
             at.Report("immovable", DiagnosticCodes.LinkImmovableNotRoot);
-        int above = gameObject;
-        while (objects[above].Parent is int parent && parent >= 0 && parent < above)
-        {
-            above = parent;
-            if (objects[above].Link is not null)
-                return;
-            if (objects[above].Body is not null)
-            {
-                at.Report("", DiagnosticCodes.LinkBelowRigidbody, ("object", objects[above].Id));
-                return;
-            }
-        }
+        if (objects[gameObject].Parent is int parent && (uint)parent < (uint)gameObject && places.BodyOf(parent) is int above && objects[above].Link is null)
+            at.Report("", DiagnosticCodes.LinkBelowRigidbody, ("object", objects[above].Id));
     }
 
     /// <summary>The two anchors of a joint are one frame at the start; else the first step snaps the link there.</summary>

@@ -35,8 +35,6 @@ NEAR = 4e-6
 """Difference of two unit twists, along any direction, beyond which they are not shared up to ``ALONE``."""
 ASLANT = np.array([0.37, 0.43, 0.29, 0.53, 0.41, 0.39])
 """A direction, about one long, that favours no twist, to sort them along."""
-GOES_ON = 0.1
-"""Share of a motion that may be outside of the finite ones: where others are obstructed, these are known to a step's curvature."""
 STILL = 1e-6
 """Rate of a coupling, beside the largest of its joints', that a twist does not change."""
 MOST = 10_000
@@ -255,39 +253,25 @@ def _common(a: Array, b: Array, tolerance: float) -> Array:
 
 
 def _that_go_on(assembly: Assembly, bodies: list[int], twists: Array, point: Array) -> Array:
-    """What of the twists by which bodies move as one is a finite motion while all others stand still, those that hang on them too.
+    """What of the twists by which bodies move as one is a finite motion of theirs, as one, while all others stand still, those that
+    hang on them too.
 
     twists: see ``_Search``, about ``point``.
     """
-    tangent = _with_all_else_held(assembly, bodies)
-    system = assembly.system
-    length = system.length[bodies, None, None]
-    arm = (system.center[bodies] - point)[:, None]
-    turning = np.swapaxes(cross(twists[3:].T[None], arm), 1, 2)
-    linear = (twists[:3] * assembly.equations.length + turning) / length
-    moved = np.concatenate([linear, np.broadcast_to(twists[3:], linear.shape)], axis=1).reshape(-1, twists.shape[1])
-    moved, mix = np.linalg.qr(moved)
-    left = moved - tangent @ (tangent.T @ moved)
-    _, s, vt = np.linalg.svd(left, full_matrices=False)
-    return np.linalg.qr(twists @ np.linalg.solve(mix, vt[s < GOES_ON].T))[0]
-
-
-def _with_all_else_held(assembly: Assembly, bodies: list[int]) -> Array:
-    """Scaled twists (v / length, w) of bodies about their own points, orthonormal columns, that lead into the finite motions which they
-    have while all others stand still, those that hang on them too."""
-    system = assembly.system
-    across = system.body_a != system.body_b  # inside a body all stands still, though a coupling counts from it
-    own = across & (np.isin(system.body_a, bodies) | np.isin(system.body_b, bodies))
-    rows = np.unique(system.row[own])
-    solver = Solver(system.part(np.flatnonzero(np.isin(system.row, rows)), rows, np.array(bodies)))
-    start = solver.system.start()
-    first = block_freedoms(solver, start)
-    columns: list[Array] = []
-    for own, finite in zip(first, finite_freedoms(solver, first, start)):
-        spread = np.zeros((len(bodies), 6, finite.mobility))
-        spread[own.bodies - 1] = finite.tangent.reshape(len(own.bodies), 6, finite.mobility)
-        columns.append(spread.reshape(6 * len(bodies), finite.mobility))
-    return np.concatenate(columns, axis=1)
+    label = np.zeros(assembly.system.bodies, dtype=np.int64)
+    label[bodies] = 1
+    one = assembly.system.relabel(label)
+    rows = np.unique(one.row[one.body_a != one.body_b])  # what a coupling counts from inside of them stands still
+    own = one.part(np.flatnonzero(np.isin(one.row, rows)), rows, np.array([1]))
+    solver = Solver.fitted(own, assembly.equations.length)
+    start = own.start()
+    finite = finite_freedoms(solver, block_freedoms(solver, start), start)[0]
+    if not 0 < finite.mobility < twists.shape[1]:
+        return twists[:, : finite.mobility]
+    velocity, turning = finite.tangent[:3].T * own.length[1], finite.tangent[3:].T
+    moved = (velocity + cross(turning, point - own.center[1])) / assembly.equations.length
+    tangent = np.linalg.qr(np.concatenate([moved, turning], axis=1).T)[0]
+    return twists @ np.linalg.svd(twists.T @ tangent)[0][:, : finite.mobility]
 
 
 def _sharing(edges: list[int], twists: list[Array], tolerance: float) -> list[tuple[int, int]]:

@@ -9,7 +9,6 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
-from itertools import pairwise
 
 import numpy as np
 
@@ -46,6 +45,10 @@ PROBES = (STEP, 1e-2, 0.2)
 TELLING = 0.125
 """Share of a step whose fourth power is no less open than the poses there, so that the step tells: what the fourth power of the
 way obstructs keeps the fourth root of the closing error, 1e-3 to 1e-2 where rows that nearly repeat each other hold up the closing."""
+BESIDE = 10.0
+"""Times the error asked for up to which a trial step came back onto the rows."""
+MIXTURES = 3
+"""Of motions: by chance one in eight lies so near a single branch that it keeps all but a tenth of itself."""
 WALK = 3
 WALK_STEP = 0.05
 NOISY_GAP = 1e10
@@ -86,8 +89,11 @@ def finite_freedoms(solver: Solver, first_order: list[BlockFreedom], start: Stat
             doubtful[part] = not (noisy and moves_up_to_noise(solver.alone(part), first_order[part]))
         for step in PROBES[:2]:
             directions = _random_directions(blocks, np.flatnonzero(doubtful).tolist(), draw)
-            moved, _ = trial(solver, blocks, start, directions, step, floor) if directions else ({}, floor)
-            for part in _changed(directions, moved, SURVIVES * step):
+            moved, left = trial(solver, blocks, start, directions, step, floor) if directions else ({}, floor)
+            changed = _changed(directions, moved, SURVIVES * step)
+            # what does not come back onto the rows may have kept its length for that alone
+            beside = [p for p in directions if left[p] > BESIDE * floor[p]]
+            for part in sorted({*changed, *beside}):
                 searched = _searched(solver, part, first_order[part])
                 if searched.mobility < first_order[part].mobility:
                     found[part] = searched
@@ -186,22 +192,42 @@ def _searched(solver: Solver, part: int, first_order: BlockFreedom) -> FiniteFre
 def _beyond_doubt(solver: Solver, part: int, freedom: BlockFreedom, state: State, floor: Array) -> Array:
     """As ``_survivors``; while some velocity keeps a part of itself only, as where two branches of motions touch each other, from
     poses further away.  floor: of the pose where the walk to the state began."""
-    ways, share = freedom.basis, np.ones(freedom.mobility)
+    ways, share, step = freedom.basis, np.ones(freedom.mobility), STEP
     for further in range(MOST_FURTHER):
         if further:
             state, there = _further(solver, part, freedom, state)
             freedom = there[part]
         if not freedom.mobility:
             return freedom.basis
-        ways, share, open_ = kept_of(solver, part, freedom, state, PROBES[0], floor)
-        for step, longer in pairwise(PROBES):
-            if open_ <= (TELLING * step) ** 4:
+        for step in PROBES:
+            ways, share, open_ = kept_of(solver, part, freedom, state, step, floor)
+            if open_ <= min(BESIDE * floor[part], (TELLING * step) ** 4):
                 break
-            ways, share, open_ = kept_of(solver, part, freedom, state, longer, floor)
         ways, share = ways[:, share > DIRECTION], share[share > DIRECTION]
-        if not np.any(share < WHOLE):
+        if not np.any(share < WHOLE) and _mixtures_move(solver, part, freedom, state, ways, step, floor):
             return ways
     return ways[:, share > HALF]
+
+
+def _mixtures_move(
+    solver: Solver,
+    part: int,
+    freedom: BlockFreedom,
+    state: State,
+    ways: Array,
+    step: float,
+    floor: Array,
+) -> bool:
+    """Whether mixtures of directions, shape (6 n, m), are motions as these are.  Where branches of motions cross, the directions of
+    all survive, and of a mixture only what one branch has of it."""
+    draw = np.random.default_rng(19)
+    for _ in range(MIXTURES if ways.shape[1] > 1 else 0):
+        way = random_direction(ways, draw)
+        way /= np.linalg.norm(way)
+        left, _ = left_of(solver, part, freedom, state, way, step, floor)
+        if np.linalg.norm(left - way) > 1.0 - WHOLE:
+            return False
+    return True
 
 
 def _found_far_away(

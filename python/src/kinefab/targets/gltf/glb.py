@@ -16,7 +16,7 @@ from ...geometry.collision import hollow_pieces, is_split
 from ...model import PLAIN, Body, Collider, ColliderKind, Mesh, Physics
 from ...options import ColliderShape
 from ...replacing import replacing
-from ...rigid import active_nodes, is_dynamic
+from ...rigid import active_nodes, is_dynamic, moves_nothing
 from ...spatial import Array, Pose, quaternion_from_matrix
 from ...unity.bodies.rigidbodies import body_dynamics, body_mass, parents_beside, place_rigidbodies
 from ...unity.bodies.standing import bases_of
@@ -332,6 +332,9 @@ class _Document:
                 continue
             if removes_nothing(joint):
                 self.report.dropped(f"joint {joint.id}", "JOINT_REMOVES_NOTHING", joint.where, joint=joint.id)
+                continue
+            if moves_nothing(joint, self.scene, groups):
+                self.report.dropped(f"joint {joint.id}", "JOINT_BETWEEN_LED", joint.where, joint=joint.id)
                 continue
             driven = with_passive_drives(joint, self.report)
             a, b = (None if n is None else self.node_of[n] for n in (joint.a, joint.b))

@@ -133,7 +133,7 @@ def shape_pose(collider: Collider) -> Pose:
     """Where glTF's shape stands in the node's frame."""
     if collider.kind in (ColliderKind.CAPSULE, ColliderKind.CYLINDER):
         return Pose(collider.pose.rotation @ ALONG_Y, collider.pose.translation)
-    return collider.pose
+    return Pose(translation=collider.pose.translation) if collider.kind is ColliderKind.SPHERE else collider.pose
 
 
 def _index(entries: list[dict[str, Any]], entry: dict[str, Any]) -> int:

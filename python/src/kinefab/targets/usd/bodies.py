@@ -9,7 +9,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from ...model import Joint, Scene
-from ...rigid import RigidGroups, is_dynamic
+from ...rigid import RigidGroups, is_dynamic, is_kinematic
 from ...unity.bodies.rigidbodies import Rigidbodies, place_rigidbodies
 
 
@@ -44,7 +44,10 @@ class Bodies:
         return self.base if coupled and len(self.grounded) == 1 else None
 
     def dynamic(self, node: int) -> bool:
-        """Whether forces move a node's body."""
+        """Whether forces move a node's body; also of an assembly that only carries what moves."""
+        members = self.moving.carriers.get(node)
+        if members is not None:
+            return not is_kinematic(self.scene, members)
         return is_dynamic(self.scene, self.groups, node)
 
     def taken_out(self, node: int) -> bool:

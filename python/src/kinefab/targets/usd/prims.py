@@ -13,6 +13,8 @@ from .names import PrimNames, display_name
 
 Scale = tuple[float, float, float]
 ONE: Scale = (1.0, 1.0, 1.0)
+NOISE = 1e-12
+"""Metres, or parts of a quaternion, that say nothing: a scene file has as many decimals."""
 
 
 class Prim:
@@ -119,8 +121,8 @@ class Prim:
 
 
 def rounded(values: Array) -> bool:
-    """Whether 32 bits cannot hold the numbers."""
-    return not np.array_equal(values, values.astype(np.float32))
+    """Whether 32 bits cannot hold the numbers, metres or parts of a quaternion."""
+    return bool(np.abs(values - values.astype(np.float32)).max() > NOISE)
 
 
 def vector3d(values: Array) -> Any:

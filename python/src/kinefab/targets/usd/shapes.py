@@ -110,7 +110,8 @@ class Shapes:
         if kind in SHAPES:
             contact = Contact("", material, collider.trigger, collider.enabled)
             scale = collider.size if kind is ColliderKind.BOX else (1.0, 1.0, 1.0)
-            return Shape(name, collider.pose, scale, True, None, collider, contact)
+            pose = Pose(translation=collider.pose.translation) if kind is ColliderKind.SPHERE else collider.pose
+            return Shape(name, pose, scale, True, None, collider, contact)
         assert collider.mesh is not None, "a hull or mesh collider names its mesh"
         wanted = PIECES if kind is ColliderKind.PIECES else HULL
         if kind is ColliderKind.MESH:

@@ -10,7 +10,7 @@ import numpy as np
 
 from ... import __version__
 from ...model import Joint, NodeKind
-from ...rigid import active_nodes
+from ...rigid import active_nodes, moves_nothing
 from ...unity.joints.coordinates import removes_nothing
 from ..content import Content
 from .api import Sdf
@@ -97,6 +97,8 @@ class Stage:
                 report.kept(feature, joint.where)
         elif removes_nothing(joint) and joint.id not in counted:
             report.dropped(feature, "JOINT_REMOVES_NOTHING", joint.where, joint=joint.id)
+        elif joint.enabled and moves_nothing(joint, self.content.scene, groups) and joint.id not in counted:
+            report.dropped(feature, "JOINT_BETWEEN_LED", joint.where, joint=joint.id)
         else:
             return True
         return False

@@ -6,7 +6,6 @@ the model's own terms gets the nodes.
 
 from __future__ import annotations
 
-from collections import Counter
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from pathlib import Path
@@ -16,11 +15,10 @@ import numpy as np
 
 from ...diagnostics import FeatureOutcome, Outcome, Report, Severity
 from ...model import (
+    PLAIN,
     AnimationClip,
     Body,
-    Coupling,
     Dynamics,
-    Joint,
     MassProperties,
     Node,
     NodeKind,
@@ -32,20 +30,23 @@ from ...model import (
     Surface,
     Track,
 )
-from ...options import Closures, ExportOptions, Ground
+from ...options import Closures, ColliderShape, ExportOptions, Ground
 from ...spatial import Pose, matrix_from_quaternion
 from .. import frames
+from ..as_stated import stated_body, stated_mass, stated_piece, without_stated
 from ..assets.clips import WRAP
 from ..assets.meshes import unmapped_mesh
+from ..counting import led_bodies
 from ..joints.passive import with_passive_drives
 from ..mapping import GROUND_ID
 from ..scene import ArticulationBody, Collider, GameObject, Material, MeshFilter, MeshRenderer, Rigidbody, UnityScene
-from ..scene.joints.configurable_joint import APART
 from .extras import Way, extras_in
 from .pairs import pairs_apart, pairs_colliding
 from .restored import restored
 from .scene_file import read_buffers, read_scene_file, unsound_as_finding
 from .shapes import shape_of
+from .stated.choices import choice_of, still_chosen
+from .stated.joints import WrittenJoints
 from .unity_scene import unity_scene
 
 HELD = Rigidbody(useGravity=False, isKinematic=True)
@@ -56,11 +57,12 @@ _REPEATS = {word: repeat for repeat, word in WRAP.items()}
 @dataclass(slots=True, eq=False)
 class WrittenScene(Scene):
     """written: the same in Unity's terms, as it stands in the file.  path: the file's name.  extras_at: what other programs have
-    written into its objects, by the way to each."""
+    written into its objects, by the way to each.  pieces: pairs of nodes that stand and are of one piece."""
 
     written: UnityScene = field(default_factory=UnityScene)
     path: str = ""
     extras_at: Mapping[Way, Mapping[str, Any]] = field(default_factory=dict[Way, Mapping[str, Any]])
+    pieces: Sequence[tuple[int, int]] = ()
 
     def as_written(self, links: bool, options: ExportOptions, report: Report) -> UnityScene | None:
         """What is in the file, where nothing is asked for that it was not made with; None where it is to be made anew.
@@ -81,6 +83,11 @@ class WrittenScene(Scene):
         for joint in () if has_links else self.joints:  # no joint of Unity's has a field for it, as where they are made anew
             with_passive_drives(joint, report)
         return self.written
+
+    def in_its_order(self, analysed: Scene) -> Scene:
+        """The analysed scene with the joints in the order in which the analysis of the source had them."""
+        place = {joint.id: i for i, joint in enumerate(self.joints)}
+        return replace(analysed, joints=sorted(analysed.joints, key=lambda joint: place.get(joint.id, len(place))))
 
     def tell_unused(self, options: ExportOptions, report: Report) -> None:
         """What is asked of geometry and masses, which a written scene states."""
@@ -129,12 +136,18 @@ class _Nodes:
         for index, entry in enumerate(self.objects):
             if entry.parent is not None:
                 self.children[entry.parent].append(index)
+        self.surfaces = [_surface(material) for material in scene.materials]
+        self.meshes = list(map(unmapped_mesh, scene.meshes))
+        self.drawn = {c.mesh for entry in self.objects for c in entry.components if isinstance(c, MeshFilter)}
         self.ground = next((i for i, entry in enumerate(self.objects) if entry.role == "ground" or entry.id == GROUND_ID), None)
         self.placed = {i: kind for i in range(len(self.objects)) if (kind := self._place_of(i))}
-        kept = [i for i in range(len(self.objects)) if i != self.ground and i not in self.placed]
+        self.light = led_bodies(scene)
+        kept = [i for i in range(len(self.objects)) if i != self.ground and i not in self.placed and i not in self.light]
         self.node_of = {index: node for node, index in enumerate(kept)}
         self.bodies = [_body(entry.components) for entry in self.objects]
-        self.moving = [body is not None and not self._is_held(i) for i, body in enumerate(self.bodies)]
+        self.moving = [
+            body is not None and not self._is_held(i) and i not in self.light for i, body in enumerate(self.bodies)
+        ]
         self.above_moving = list(self.moving)
         for index in range(len(self.objects) - 1, -1, -1):
             parent = self.objects[index].parent
@@ -144,16 +157,14 @@ class _Nodes:
     def scene(self) -> WrittenScene:
         written = self.written
         nodes = [self._node(index) for index in self.node_of]
-        joints = self._joints()
-        ids = {joint.id for joint in joints}
-        couplings = [c for c in (*self.back.scene.couplings, *self.back.idle) if c.joints <= ids]
-        joints, couplings = self._named(joints, couplings)
+        held = [self._is_held(index) for index in range(len(self.objects))]
+        joints, couplings = WrittenJoints(self.objects, self.back, self.node_of, self.ground, held, self.light).named()
         extras = {key: value for key, value in written.extras.items() if key != "ignoreCollision"}
         source, physics = written.source, written.physics
         return WrittenScene(
             nodes=nodes,
-            meshes=list(map(unmapped_mesh, written.meshes)),
-            surfaces=[_surface(material) for material in written.materials],
+            meshes=self.meshes,
+            surfaces=self.surfaces,
             joints=joints,
             couplings=couplings,
             animations=self._clips(),
@@ -168,17 +179,25 @@ class _Nodes:
             apart=pairs_apart(written, self.node_of),
             colliding=pairs_colliding(written, self.node_of),
             written=written,
+            pieces=self._pieces(nodes),
         )
+
+    def _pieces(self, nodes: Sequence[Node]) -> list[tuple[int, int]]:
+        place = {node.id: i for i, node in enumerate(nodes)}
+        told = ((place.get(stated_piece(self.objects[index].extras)), node) for index, node in self.node_of.items())
+        return [(first, node) for first, node in told if first is not None and nodes[first].grounded and nodes[node].grounded]
 
     def _place_of(self, index: int) -> str:
         """``body``, ``collider`` or ``site`` of an object that only gives one a place on the node above it, "" of any other."""
         entry = self.objects[index]
-        if entry.parent is None or self.children[index] or not entry.active:
+        if entry.parent is None or not entry.active or any(self._place_of(i) != "collider" for i in self.children[index]):
             return ""
         if entry.role == "site":
             return "site"
-        above = self.objects[entry.parent].id
-        kind = entry.id.removeprefix(f"{above}/").partition(":")[0] if entry.id.startswith(f"{above}/") else ""
+        above = self.objects[entry.parent]
+        kind = _kind_below(above, entry)
+        if not kind and above.parent is not None and _kind_below(self.objects[above.parent], above) == "body":
+            kind = _kind_below(self.objects[above.parent], entry)
         drawn = all(isinstance(c, (MeshFilter, MeshRenderer, Collider)) for c in entry.components)
         return kind if kind in ("body", "collider", "site") and drawn else ""
 
@@ -195,14 +214,16 @@ class _Nodes:
     def _node(self, index: int) -> Node:
         entry, body = self.objects[index], self.bodies[index]
         inner = [i for i in self.children[index] if i in self.placed]
+        inner += [k for i in inner for k in self.children[i]]
         bodies = [b for i in (index, *inner) for b in self._bodies(i, index)]
         shapes = [s for i in (index, *inner) for s in self._shapes(i, index)]
+        choice = self._choice((index, *inner))
         stands = body is not None and self._is_held(index)
         held = stands or (body is None and not self.above_moving[index] and not self._carried(index))
         below = [i for i in self.children[index] if i in self.node_of]
         whole = self.moving[index] and bool(below) and not any(self.above_moving[i] for i in below)
         part = (bool(bodies or shapes or not below) or body is not None) and not whole
-        mass = None
+        mass = stated_mass(entry.extras) if held else None
         if body is not None and not stands:
             turn = frames.rotation(matrix_from_quaternion(np.array(body.inertiaTensorRotation)))
             inertia = turn @ np.diag(body.inertiaTensor) @ turn.T
@@ -219,7 +240,8 @@ class _Nodes:
             grounded=held and part,
             flexible=not whole and not self._carried(index),
             suppressed=not entry.active,
-            colliders=tuple(shapes),
+            colliders=tuple(shapes) if choice is None else None,
+            collision=choice,
             dynamics=Dynamics() if body is None or stands else _dynamics(body),
             sites=tuple(
                 Site(self.objects[i].name, self.back.poses[index].inverse() @ self.back.poses[i])
@@ -228,7 +250,7 @@ class _Nodes:
             ),
             layer=entry.layer,
             tag=entry.tag,
-            extras=dict(entry.extras),
+            extras=without_stated(entry.extras),
         )
 
     def _parent(self, entry: GameObject) -> int | None:
@@ -247,14 +269,15 @@ class _Nodes:
         return self.back.poses[node].inverse() @ self.back.poses[index]
 
     def _bodies(self, index: int, node: int) -> list[Body]:
-        components = self.objects[index].components
+        entry = self.objects[index]
+        components = entry.components
         renderer = next((c for c in components if isinstance(c, MeshRenderer)), None)
         scale = _three(self.back.scales[index])
         return [
             Body(
-                self.objects[index].name if index != node else self.written.meshes[c.mesh].name,
+                entry.name if index != node else stated_body(entry.extras) or self.meshes[c.mesh].name,
                 c.mesh,
-                () if renderer is None else renderer.materials,
+                () if renderer is None else self._surfaces(renderer.materials),
                 pose=self._local(index, node),
                 scale=scale,
                 visible=renderer is not None and renderer.enabled,
@@ -263,6 +286,10 @@ class _Nodes:
             for c in components
             if isinstance(c, MeshFilter)
         ]
+
+    def _surfaces(self, materials: tuple[int, ...]) -> tuple[int, ...]:
+        """None where all are what a body gets of which nobody states any."""
+        return () if all(self.surfaces[i] == PLAIN for i in materials) else materials
 
     def _shapes(self, index: int, node: int) -> list[Any]:
         place, scale = self._local(index, node), self.back.scales[index]
@@ -273,57 +300,18 @@ class _Nodes:
             if isinstance(c, Collider)
         ]
 
-    def _joints(self) -> list[Joint]:
-        """Between the nodes: the restored ones are between Rigidbodies, and the world is one of them."""
-        index_of = {entry.id: index for index, entry in enumerate(self.objects)}
-        carrier = [None if i == 0 else index_of[node.id] for i, node in enumerate(self.back.scene.nodes)]
-        found: list[Joint] = []
-        for (index, k), joint in (self.back.joints | self.back.switched_off).items():
-            component = self.objects[index].components[k]
-            if APART in getattr(component, "extras", {}):
-                continue
-            ends = [(joint.a or 0, joint.frame_a), (joint.b or 0, joint.frame_b)]
-            own = self.back.node_of[index]
-            parts = [
-                index_of.get(getattr(component, "part" if node == own else "connectedPart", "")) for node, _ in ends
-            ]
-            (a, frame_a), (b, frame_b) = (
-                self._side(carrier[node], part, frame) for (node, frame), part in zip(ends, parts)
-            )
-            if a != b:
-                found.append(replace(joint, a=a, b=b, frame_a=frame_a, frame_b=frame_b))
-        return found
-
-    def _named(
-        self, joints: Sequence[Joint], couplings: Sequence[Coupling]
-    ) -> tuple[list[Joint], list[Coupling]]:
-        """By the source's own ids, where the file tells them: by those other targets and the report name them."""
-        place = {joint.id: at for at, joint in (self.back.joints | self.back.switched_off).items()}
-        told = {
-            joint.id: str(getattr(self.objects[place[joint.id][0]].components[place[joint.id][1]], "id", ""))
-            for joint in joints
-        }
-        counts = Counter(told.values())
-        name = {own: id if id and counts[id] == 1 and id not in told else own for own, id in told.items()}
-        return [replace(joint, id=name[joint.id]) for joint in joints], [
-            replace(
-                coupling,
-                joint=name[coupling.joint],
-                terms=tuple(replace(term, joint=name[term.joint]) for term in coupling.terms),
-            )
-            for coupling in couplings
-        ]
-
-    def _side(self, body: int | None, part: int | None, frame: Pose) -> tuple[int | None, Pose]:
-        """The node of one end of a joint, and the frame in it.  body: the object with the Rigidbody, None for the world.
-        part: the object that is joined, where it is another one that moves with that body."""
-        stands = body is None or body == self.ground
-        if part in self.node_of and self.back.node_of[part] == (0 if body is None else self.back.node_of[body]):
-            from_body = frame if body is None else self.back.poses[body] @ frame
-            return self.node_of[part], self.back.poses[part].inverse() @ from_body
-        if body is None:
-            return None, frame
-        return (None, self.back.poses[body] @ frame) if stands else (self.node_of[body], frame)
+    def _choice(self, indices: Sequence[int]) -> ColliderShape | None:
+        """Of the colliders on an object and on those that give its bodies and colliders a place, where nothing but a choice made them."""
+        at = {i: [c for c in self.objects[i].components if isinstance(c, Collider)] for i in indices}
+        shape, counted = choice_of([c for own in at.values() for c in own]), 0
+        for holder in indices:
+            for mesh in (c.mesh for c in self.objects[holder].components if isinstance(c, MeshFilter)):
+                own = [(c, Pose()) for c in at[holder]]
+                own += [(c, self._local(i, holder)) for i in self.children[holder] if self.placed.get(i) == "collider" for c in at[i]]
+                counted += len(own)
+                if shape is None or not still_chosen(shape, mesh, self.meshes[mesh], own, self.drawn):
+                    return None
+        return shape if counted == sum(map(len, at.values())) else None
 
     def _clips(self) -> list[AnimationClip]:
         return [
@@ -343,6 +331,11 @@ class _Nodes:
             )
             for clip in self.written.animations
         ]
+
+
+def _kind_below(above: GameObject, entry: GameObject) -> str:
+    """The word behind the upper object's id in that of the lower one, "" where it does not begin with that id."""
+    return entry.id.removeprefix(f"{above.id}/").partition(":")[0] if entry.id.startswith(f"{above.id}/") else ""
 
 
 def _three(values: Any) -> tuple[float, float, float]:

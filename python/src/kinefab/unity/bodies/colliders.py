@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import itertools
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from typing import Any
 
 import numpy as np
@@ -16,6 +16,7 @@ from ...options import ColliderShape, Ground
 from ...spatial import Array, Pose
 from .. import frames
 from ..scene import BoxCollider, CapsuleCollider, MeshCollider, SphereCollider
+from ..scene.colliders.collider import CHOSEN
 from ..scene.vectors import ONE, Vector3, vector3
 
 UnityCollider = BoxCollider | SphereCollider | CapsuleCollider | MeshCollider
@@ -82,12 +83,14 @@ def chosen_colliders(
     assert index is not None
     if shape is ColliderShape.NONE:
         return []
+    choice = {"extras": {CHOSEN: shape.value}}
     own = colliders.shape_of.get(index) if shape is ColliderShape.AUTO else None
-    if own is not None and keeps_its_shape(own, body.scale) and (placed := _without_mesh(own, {})) is not None:
+    if own is not None and keeps_its_shape(own, body.scale) and (placed := without_mesh(own, choice)) is not None:
         told = {"body": f"{node}/{body.name}", "shape": type(placed.component).__name__}
         report.noted(f"collider {node}/{body.name}", "COLLIDER_RECOGNISED", **told)
         return [placed]
-    return [PlacedCollider(component) for component in _meshes_of(colliders, shape, index, mesh, dynamic)]
+    made = _meshes_of(colliders, shape, index, mesh, dynamic)
+    return [PlacedCollider(replace(component, **choice)) for component in made]
 
 
 def _meshes_of(
@@ -132,7 +135,7 @@ def stated_collider(
         "group": collider.group,
         "id": collider.name,
     }
-    if (simple := _without_mesh(collider, common)) is not None:
+    if (simple := without_mesh(collider, common)) is not None:
         report.kept(feature, collider.where)
         return [simple]
     if _is_flat(collider, dynamic):
@@ -159,7 +162,7 @@ def stated_collider(
     return [_meshed(MeshCollider(**common, mesh=mesh, convex=True), collider) for mesh in convex]
 
 
-def _without_mesh(collider: Collider, common: Mapping[str, Any]) -> PlacedCollider | None:
+def without_mesh(collider: Collider, common: Mapping[str, Any]) -> PlacedCollider | None:
     """A ball, box or capsule, on an object of its own where its axes are not the node's; None for any other shape."""
     center, turn = vector3(frames.point(collider.pose.translation)), collider.pose.rotation
     if collider.kind is ColliderKind.SPHERE:

@@ -13,7 +13,7 @@ Signs and frames: ``schemas/SPEC.md``, "Joints".  In short, with X Y Z the joint
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
 from typing import Any
 
@@ -24,11 +24,13 @@ from ...rigid import RigidGroups
 from ...spatial import Array, Pose
 from .. import frames
 from ..scene import ConfigurableJoint, FixedJoint, HingeJoint
+from ..scene.joints.joint import AnchoredJoint
 from ..scene.vectors import vector3
 from .configurable import MOTION_TITLES, configurable_fields
 from .coordinates import CanonicalJoint, Coordinates, canonical, coordinates_in, removes_nothing
 from .hinge import fits_hinge, hinge_fields
 from .limits import report_gap, turns_as_travel
+from .passive import OWN, stated_of, unbounded
 from .placement import Placement, place
 
 LOSSES = ("JOINT_BETWEEN_LED", "JOINT_REDUNDANT", "JOINT_REMOVES_NOTHING")
@@ -55,7 +57,7 @@ class UnityJoint:
 
     component: without ``connectedBody``.
     coordinates: for each freedom (TX..RZ) that is not locked, how to read it.
-    parts: the nodes that the source joins, the own one first.
+    on_a: whether the own side is the joint's a.
     """
 
     source: Joint
@@ -63,7 +65,12 @@ class UnityJoint:
     connected: int | None
     component: MappedJoint
     coordinates: dict[int, UnityCoordinate]
-    parts: tuple[int | None, int | None]
+    on_a: bool
+
+    @property
+    def parts(self) -> tuple[int | None, int | None]:
+        """The nodes that the source joins, the own one first."""
+        return (self.source.a, self.source.b) if self.on_a else (self.source.b, self.source.a)
 
     def beside(self, scene: Scene) -> dict[str, str]:
         """The component's fields of the parts that others have the Rigidbodies of."""
@@ -99,15 +106,15 @@ def map_joint(
         None if n is None else base(n) if still else carrier(n) for n, still in zip((joint.a, joint.b), stands)
     )
     # Unity's solver moves neither side, and lets two kinematic bodies pass each other with a joint or without
-    idle = a != b and not all(stands) and all(still or (n is not None and led(n)) for n, still in zip((a, b), stands))
+    unmoved = a != b and not all(stands) and all(still or (n is not None and led(n)) for n, still in zip((a, b), stands))
     counted = next((c for c in scene.couplings if joint.id in c.joints), None)
-    if idle and counted is not None:  # there to be counted by alone, however scripts move the two
-        joint = replace(joint, kind=JointKind.GENERAL, freedoms=(FREE,) * 6)
+    if unmoved and counted is not None:
+        joint = idle(joint)
     shape = canonical(joint)
     coordinates = coordinates_in(scene, joint, shape)
     shape = turns_as_travel(joint, shape, coordinates)
     lossless = report_gap(joint, coordinates, report)
-    unneeded = _why_none(joint, shape, found, groups, counted is not None, idle)
+    unneeded = _why_none(joint, shape, found, groups, counted is not None, unmoved)
     if unneeded in LOSSES:
         report.dropped(feature, unneeded, joint.where, joint=joint.id)
     elif unneeded == "CLOSURE_NOT_NEEDED":
@@ -116,13 +123,13 @@ def map_joint(
         report.kept(feature, joint.where)
     if unneeded is not None:
         return None
-    if idle and counted is not None:
+    if unmoved and counted is not None:
         report.add("JOINT_BETWEEN_LED_COUNTED", joint.where, joint=joint.id, coupling=counted.id)
     frame_a = scene.pose(a).inverse() @ scene.pose(joint.a) @ shape.frame_a
     frame_b = scene.pose(b).inverse() @ scene.pose(joint.b) @ shape.frame_b
     placement = place(shape, *stands)
     before = len(report.outcomes)
-    component = _component(joint, shape, found, frame_a, frame_b, placement, coordinates, report)
+    component = component_of(joint, shape, found, frame_a, frame_b, placement, coordinates, report)
     owner, connected = (a, b) if placement.on_a else (b, a)
     assert owner is not None, "two parts of the ground are one rigid group"
     if not lossless or any(found.misfit) or len(report.outcomes) > before:
@@ -131,17 +138,31 @@ def map_joint(
         _report_freed(joint, found, shape, component, scene, scene.nodes[owner].id, report)
     else:
         report.kept(feature, joint.where)
-    parts = (joint.a, joint.b) if placement.on_a else (joint.b, joint.a)
-    return UnityJoint(joint, owner, connected, component, _readings(shape, coordinates, placement), parts)
+    return UnityJoint(joint, owner, connected, component, readings(shape, coordinates, placement), placement.on_a)
+
+
+def idle(joint: Joint) -> Joint:
+    """What there is of a joint whose sides scripts alone move: there to be counted by, however they do."""
+    return replace(joint, kind=JointKind.GENERAL, freedoms=(FREE,) * 6)
+
+
+def with_stated(component: MappedJoint, joint: Joint, coordinates: Mapping[int, UnityCoordinate]) -> MappedJoint:
+    """With what the source states of the joint's coordinates.  joint: the source's, with its passive springs."""
+    if not isinstance(component, AnchoredJoint):
+        return component
+    names = {i: at.name for i, at in coordinates.items()}
+    component = replace(component, **stated_of(joint, names))
+    own = [name for i, name in names.items() if unbounded(joint.freedoms[i]) and joint.slerp is None]
+    return replace(component, extras={**component.extras, OWN: own}) if own else component
 
 
 def _why_none(
-    joint: Joint, shape: CanonicalJoint, found: JointFinding, groups: RigidGroups, counted: bool, idle: bool
+    joint: Joint, shape: CanonicalJoint, found: JointFinding, groups: RigidGroups, counted: bool, unmoved: bool
 ) -> str | None:
     """Why a joint needs no component: a code of the report, "" where one Rigidbody or a FixedJoint of the group is it, or
-    None where it needs one.  counted: whether a coupling counts by it.  idle: whether Unity's solver moves neither side."""
+    None where it needs one.  counted: whether a coupling counts by it.  unmoved: whether Unity's solver moves neither side."""
     if groups.together(joint.a, joint.b):
-        if idle:
+        if unmoved:
             return "JOINT_BETWEEN_LED"
         return "JOINT_REDUNDANT" if shape.rotations or shape.translations else ""
     if counted:
@@ -150,10 +171,10 @@ def _why_none(
     apart = found.freed and not (groups.is_ground(joint.a) or groups.is_ground(joint.b))
     if removes_nothing(joint, shape) and not apart:
         return "CLOSURE_NOT_NEEDED" if found.freed else "JOINT_REMOVES_NOTHING"
-    return "JOINT_BETWEEN_LED" if idle else None
+    return "JOINT_BETWEEN_LED" if unmoved else None
 
 
-def _component(
+def component_of(
     joint: Joint,
     shape: CanonicalJoint,
     found: JointFinding,
@@ -235,13 +256,13 @@ def _common_fields(joint: Joint, found: JointFinding) -> dict[str, Any]:
     }
 
 
-def _readings(
+def readings(
     shape: CanonicalJoint, coordinates: Coordinates, placement: Placement
 ) -> dict[int, UnityCoordinate]:
     """How each unlocked coordinate is read: the own body's motion against the connected one's."""
     own = placement.own
     hinge = fits_hinge(shape)
-    readings: dict[int, UnityCoordinate] = {}
+    found: dict[int, UnityCoordinate] = {}
     for i in range(6):
         if shape.freedoms[i].motion is Motion.LOCKED:
             continue
@@ -253,5 +274,5 @@ def _readings(
         else:
             name, sign = "angular" + "XYZ"[axis], own.angular[axis]
         zero = shape.freedoms[i].nearest_turn(coordinates.values[i]) if i >= RX else coordinates.values[i]
-        readings[shape.name_of[i]] = UnityCoordinate(name, sign, float(zero))
-    return readings
+        found[shape.name_of[i]] = UnityCoordinate(name, sign, float(zero))
+    return found

@@ -6,6 +6,7 @@ using Kinefab.Dynamics;
 using Kinefab.Dynamics.Rattle;
 using Kinefab.Joints;
 using Kinefab.Numerics;
+using Kinefab.Tests.Kinematics;
 using NUnit.Framework;
 
 namespace Kinefab.Tests.Dynamics.Rattle;
@@ -54,6 +55,43 @@ internal sealed class ContradictionTests
 
         Assert.That(m.StalledJoints.Select(joint => (joint.Joint, joint.IsDrive)), Is.EqualTo(new[] { (m.Joints[0], true) }));
         Assert.That(MechanismMeasures.Drift(m), Is.LessThanOrEqualTo(1e-8));
+    }
+
+    /// <summary>
+    /// Two wheels geared 5 to 2 and a joint between them that is free about and along everything: along its Z the wheels' axles let nothing move, and no
+    /// force at all is of use there. That drive took 280 parts a step; two more against each other through the gear, which tear at their axles, a thousand.
+    /// </summary>
+    [TestCase(double.NaN, MostParts)]
+    [TestCase(114, 30)]
+    public void Drives_OfGearsAndAlongWhatTheirAxlesHold_Stall(double other, double mostParts)
+    {
+        var s = new MechanismScene();
+        int first = s.Body("first", Vector3d.Zero), second = s.Body("second", new Vector3d(0.7, 0, 0));
+        Kinematics.JointPlace a = s.Hinge(first, null, Vector3d.Zero, Vector3d.UnitZ);
+        Kinematics.JointPlace b = s.Hinge(second, null, new Vector3d(0.7, 0, 0), Vector3d.UnitZ);
+        s.Configurable(second, first, new Vector3d(0.5, 0, 0), Vector3d.UnitX, Vector3d.UnitY, "FFFFFF");
+        s.Couple(a, Coordinate.Angle, b, Coordinate.Angle, -0.4);
+        World world = World.Create(SmallScene.Validate(s.Document()), SolverKind.Exact);
+        world.Joints[1].DriveTo(Coordinate.Angle, -37);
+        world.Joints[2].DriveAt(Coordinate.Z, 50);
+        if (!double.IsNaN(other))
+        {
+            world.Joints[0].DriveTo(Coordinate.Angle, other);
+        }
+
+        for (int i = 0; i < 100; i++)
+        {
+            world.Step(0.02);
+        }
+
+        Assert.That(world.SubstepWork / 100, Is.LessThanOrEqualTo(mostParts * world.Joints.Count));
+        Assert.That(world.Findings.Diagnostics.Select(found => found.Code).Distinct(), Is.EqualTo(new[] { DiagnosticCodes.DriveStalled }));
+        Assert.That(world.Findings.Diagnostics[0].Message, Does.Contain("second[2] (drive)"));
+        Assert.That(world.Stops, Is.Zero);
+        if (double.IsNaN(other))
+        {
+            Assert.That(world.Joints[1].Coordinate(Coordinate.Angle), Is.EqualTo(-37).Within(1e-6));
+        }
     }
 
     /// <summary>A motor of a light crank lifts whatever hangs on it: its force ends far above that.</summary>

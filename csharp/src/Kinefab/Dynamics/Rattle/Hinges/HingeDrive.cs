@@ -48,8 +48,8 @@ internal readonly struct HingeDrive
 
     private static HingeDrive OfSpring(in DriveModel gains, double error, double velocityTarget) => new()
     {
-        IsLinear = !gains.IsMotion,
-        IsSpring = true,
+        IsLinear = gains.Prescribes != Prescribed.Position,
+        IsSpring = gains.Prescribes != Prescribed.Speed,
         Gains = gains,
         Error = error,
         VelocityTarget = velocityTarget,

@@ -104,7 +104,6 @@ internal sealed class Island
             }
         }
 
-        HasCouplings = Array.Exists(Blocks, block => block.Coupling != null);
         HasKinematic = Array.IndexOf(IsStatic, false, movingBodies) >= 0;
         _inverseInertias = inverseInertias;
         RotationSplittings = new RotationSplitting[movingBodies];
@@ -163,9 +162,6 @@ internal sealed class Island
 
     /// <summary>Whether a body of theirs moves as it is told.</summary>
     public bool HasKinematic { get; }
-
-    /// <summary>Whether gears or racks may make a body move at another rate than the joint that drives it.</summary>
-    public bool HasCouplings { get; }
 
     /// <summary>Whether there are more joints and couplings than it takes to hang up the bodies, all that does not move being one.</summary>
     public bool HasLoops => Blocks.Length >= MovingBodies + (Bodies.Length > MovingBodies ? 1 : 0);

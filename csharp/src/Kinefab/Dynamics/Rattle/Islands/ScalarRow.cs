@@ -110,6 +110,9 @@ internal struct ScalarRow
     /// <summary>Speed of the row at the start of the step; in an impact, before it.</summary>
     public double StartSpeed;
 
+    /// <summary>Whether the joints alone hold a drive without limit of force: see <see cref="HeldDrives"/>.</summary>
+    public bool IsHeld;
+
     /// <summary>Whether a drive without limit of force gave, in the last piece of a part, all that <see cref="BoundForce"/> leaves it.</summary>
     public bool IsStalled;
 

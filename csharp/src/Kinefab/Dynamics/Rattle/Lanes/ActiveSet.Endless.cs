@@ -43,9 +43,39 @@ internal sealed partial class ActiveSet<V>
 
         double inertia = isAngular ? moments : levers > 1 && reach > 0 ? mass + levers * moments / (reach * reach) : mass;
         double impulse = Margin * (inertia * speed + momentum + (load + levers * Opposed(drive, h, speed, reach)) * h) + inertia * mostAcceleration * h;
-        return _batch.Shape.HasCouplings ? MostByGears * impulse : impulse;
+        return ByGears(reach) * impulse;
 
         double Length(int number, Vector3d from = default) => (LaneTransfer<V>.ReadVector(_batch.Bodies, number) - from).Length;
+    }
+
+    /// <summary>Whether a drive has no limit of force.</summary>
+    public bool HasEndless() => Array.Exists(_rows, row => row.IsActive && row.Built.Has(RowFlags.Drive) && row.IsEndless);
+
+    /// <summary>Whether a drive is held, see <see cref="HeldDrives"/>.</summary>
+    public bool HasHeld() => Array.Exists(_rows, row => row.IsHeld);
+
+    /// <summary>Notes whether a drive is held.</summary>
+    public void Hold(int index, bool isHeld) => _rows[index].IsHeld = isHeld;
+
+    // By how much gears may multiply an inertia, by the square of their ratios, or a load, by less. reach: of angles, by which they compare with ways, m.
+    private double ByGears(double reach)
+    {
+        double product = 1;
+        foreach (CoordinateCoupling? coupling in _batch.Couplings)
+        {
+            double least = double.PositiveInfinity, most = 0;
+            for (int i = 0; coupling != null && i < coupling.Factors.Length; i++)
+            {
+                double factor = Math.Abs(coupling.Factors[i]);
+                factor /= coupling.Coordinates[i].IsAngle && reach > 0 ? reach : 1;
+                least = factor > 0 ? Math.Min(least, factor) : least;
+                most = Math.Max(most, factor);
+            }
+
+            product *= most > least ? most / least * (most / least) : 1;
+        }
+
+        return Math.Min(product, MostByGears);
     }
 
     // What springs and the drives whose force has a limit may hold against a drive, N or N m of its own.

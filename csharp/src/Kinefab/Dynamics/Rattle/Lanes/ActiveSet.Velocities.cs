@@ -1,3 +1,4 @@
+using System;
 using Kinefab.Joints;
 using Kinefab.Numerics;
 
@@ -15,7 +16,8 @@ internal sealed partial class ActiveSet<V>
             ref ScalarRow scalar = ref _rows[i];
             _batch.VelocityImpulses[scalar.Index] = 0;
             scalar.ImpulseSecondHalf = 0;
-            scalar.IsStalled = scalar.Kind is RowKind.SpeedMotor or RowKind.Motion && scalar.State == RowState.AtBound && scalar.IsEndless;
+            scalar.IsStalled = scalar.IsHeld ? scalar.IsActive && Math.Abs(scalar.Built.VelocityTarget) > tolerance
+                : scalar.Kind is RowKind.SpeedMotor or RowKind.Motion && scalar.State == RowState.AtBound && scalar.IsEndless;
             if (!scalar.IsActive || scalar.Kind == RowKind.None)
             {
                 scalar.State = RowState.AtBound;

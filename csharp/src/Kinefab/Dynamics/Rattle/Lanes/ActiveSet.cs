@@ -73,6 +73,7 @@ internal sealed partial class ActiveSet<V>
             bool isReached = scalar.Allowed < 0 || (scalar.StartError <= Reach * tolerance && !scalar.IsLeft && !IsThrownBack(scalar));
             scalar.IsApart = LocatesEvents && (!scalar.IsActive || (scalar.Built.Has(RowFlags.Limit) && !isReached));
             scalar.HasDrawn = false;
+            scalar.Kind = scalar.IsHeld ? RowKind.None : scalar.Kind;
             if (scalar.Kind == RowKind.None || scalar.IsApart)
             {
                 scalar.State = RowState.AtBound;
@@ -248,10 +249,10 @@ internal sealed partial class ActiveSet<V>
         return i < _rows.Length ? i : -1;
     }
 
-    /// <summary>The most that an endless drive which stalls gives, as the speed that it would give its own bodies times the root of what they weigh; 0 where none does.</summary>
+    /// <summary>The most that an endless drive which stalls gives, as the speed that it would give its own bodies times the root of what they weigh; -1 where none does.</summary>
     public double StalledWeight()
     {
-        double most = 0;
+        double most = -1;
         for (int i = 0; i < _rows.Length; i++)
         {
             most = _rows[i].IsStalled ? Math.Max(most, Weight(_rows[i])) : most;
@@ -264,7 +265,7 @@ internal sealed partial class ActiveSet<V>
     public bool IsPushed(in ScalarRow scalar, double stalledWeight)
     {
         const double leastShare = 0.01;
-        return scalar.IsActive && IsHardLimit(scalar.Built) && scalar.State == RowState.Free && Weight(scalar) > leastShare * stalledWeight;
+        return scalar.IsActive && IsHardLimit(scalar.Built) && scalar.State == RowState.Free && stalledWeight > 0 && Weight(scalar) > leastShare * stalledWeight;
     }
 
     // A row's impulse by the speed at which its own bodies would part: of all rows in one unit, that of the root of an energy.

@@ -107,7 +107,7 @@ public abstract class WorldJoint
     // the load would give.
     private protected static Kinefab.Joints.DriveModel PositionDrive(in Kinefab.Joints.DriveModel given) => given.Stiffness > 0
         ? given
-        : new Kinefab.Joints.DriveModel { Stiffness = 1e6, Damping = 1e5, ForceLimit = given.IsActive && given.ForceLimit > 0 ? given.ForceLimit : double.PositiveInfinity, IsAcceleration = true, IsMotion = true };
+        : new Kinefab.Joints.DriveModel { Stiffness = 1e6, Damping = 1e5, ForceLimit = given.IsActive && given.ForceLimit > 0 ? given.ForceLimit : double.PositiveInfinity, IsAcceleration = true, Prescribes = Prescribed.Position };
 
     /// <summary>Called before a step: goals of drives follow the turns that were made.</summary>
     internal virtual void BeforeStep()

@@ -98,7 +98,8 @@ def _bound(prim: Prim, material: Any) -> None:
 
 
 def _write_arrays(prim: Prim, mesh: Mesh) -> None:
-    low, high = mesh.vertices.min(axis=0), mesh.vertices.max(axis=0)
+    written = mesh.vertices.astype(np.float32)
+    low, high = written.min(axis=0), written.max(axis=0)
     corners = [Gf.Vec3f(*map(float, low)), Gf.Vec3f(*map(float, high))]
     prim.attribute("extent", "Float3Array", Vt.Vec3fArray(corners))
     prim.attribute("subdivisionScheme", "Token", "none", uniform=True)

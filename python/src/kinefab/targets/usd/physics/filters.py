@@ -53,7 +53,9 @@ def write_pairs(
         return own if own == node or (own is not None and whole[own] <= set(below[node])) else None
 
     others: dict[int, dict[str, None]] = {}
-    for pair in (*pairs, *base_pairs(scene, content.groups)):
+    for pair in sorted(tuple(sorted(pair)) for pair in (*pairs, *base_pairs(scene, content.groups))):
+        if not all(below[node] for node in pair):
+            continue  # nothing touches there
         first, second = sorted(pair, key=lambda node: (body(node) is None, not bodies.dynamic(node)))
         own, other = body(first), body(second)
         if own is not None:

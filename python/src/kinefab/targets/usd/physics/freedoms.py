@@ -16,6 +16,8 @@ DOFS = ("transX", "transY", "transZ", "rotX", "rotY", "rotZ")
 UNBOUNDED = 1e30
 """Degrees or metres, for the end that a range does not have: where the schema's infinity stands PhysX refuses the other end too, and
 from 1e38 on a bound is none for it.  Kinefab's own reader takes it for none."""
+AT_ZERO = 1e-9
+"""Metres or radians that a coordinate may be off zero and be there: the rounding of a pose."""
 
 
 def coordinate(value: float, turns: bool) -> float:
@@ -115,7 +117,7 @@ def _write_stated(prim: Prim, schema: str, prefix: str, values: Mapping[str, flo
 
 def write_state(prim: Prim, instance: str, value: float, turns: bool) -> None:
     """Where a coordinate stands as exported, metres or radians: engines of reduced coordinates begin there."""
-    if value:
+    if abs(value) > AT_ZERO:
         prim.apply(f"PhysicsJointStateAPI:{instance}")
         prim.numbers({f"state:{instance}:physics:position": coordinate(value, turns)})
 

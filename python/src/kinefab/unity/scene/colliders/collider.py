@@ -1,6 +1,7 @@
 from __future__ import annotations
 
-from dataclasses import dataclass
+from collections.abc import Mapping
+from dataclasses import dataclass, field
 
 
 @dataclass(frozen=True, slots=True)
@@ -13,3 +14,8 @@ class Collider:
     material: int | None = None
     group: str = ""
     id: str = ""
+    extras: Mapping[str, object] = field(default_factory=dict[str, object], compare=False, hash=False)
+
+
+CHOSEN = "chosen"
+"""Of the extras of a collider that the source does not state: the word of the choice by which it was made of the body's mesh."""

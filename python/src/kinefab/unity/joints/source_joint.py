@@ -13,7 +13,7 @@ from typing import Any, cast
 import numpy as np
 
 from ...model import FREEDOM_NAMES, LOCKED, Drive, Freedom, Joint, JointKind, Motion, Passive, SphericalDrive
-from ...spatial import Pose, matrix_from_quaternion, quaternion_from_matrix
+from ...spatial import Array, Pose, matrix_from_quaternion, quaternion_from_matrix
 
 AS_STATED = "asStated"
 """In ``extras`` of a component: the joint that it was made of."""
@@ -63,11 +63,14 @@ def source_joint(extras: Entry, id: str, own: int | None, connected: int | None)
     entry: Any = extras.get(AS_STATED)
     try:
         told, sides = entry["freedoms"], {"own": (own, connected), "connected": (connected, own)}
+        a, b = sides[entry["a"]]
         return Joint(
             id,
             JointKind(entry["kind"]),
-            *sides[entry["a"]],
-            *(_pose(entry[frame]) for frame in ("frameA", "frameB")),
+            a,
+            b,
+            _pose(entry["frameA"]),
+            _pose(entry["frameB"]),
             tuple(_freedom(told[name]) if name in told else LOCKED for name in FREEDOM_NAMES),
             lead=_number(entry.get("lead", 0.0)),
             slerp=_slerp(entry["slerp"]) if "slerp" in entry else None,
@@ -109,7 +112,7 @@ def _number(value: Any) -> float:
     return float(value)
 
 
-def _numbers(values: Any, count: int) -> np.ndarray:
+def _numbers(values: Any, count: int) -> Array:
     found = np.array([_number(value) for value in values], dtype=np.float64)
     if len(found) != count:
         raise ValueError(f"{len(found)} numbers")

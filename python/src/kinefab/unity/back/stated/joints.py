@@ -52,8 +52,9 @@ class WrittenJoints:
             component = self.objects[index].components[k]
             if not isinstance(component, JointComponent):
                 continue
-            sides = (component.part, self.light.get(index, index)), (component.connectedPart, component.connectedBody)
-            stated = source_joint(component.extras, joint.id, *(self._node(*side) for side in sides))
+            own = self._node(component.part, self.light.get(index, index))
+            connected = self._node(component.connectedPart, component.connectedBody)
+            stated = source_joint(component.extras, joint.id, own, connected)
             if stated is not None and (counted := self._as_stated(stated, joint, component, index)) is not None:
                 found[joint.id] = counted
         return found
@@ -75,7 +76,7 @@ class WrittenJoints:
             return None
         at = [Pose() if index is None else poses[index] for index in sides]
         ends = Ends(
-            *at, poses[owner], Pose() if other is None else poses[other], a == own,
+            at[0], at[1], poses[owner], Pose() if other is None else poses[other], a == own,
             (self._stands(a), self._stands(b)), (joint.a == back.node_of[owner]) != (a == own),
             component.enabled and all(node == 0 or back.scene.nodes[node].grounded for node in (a, b)),
         )  # fmt: skip

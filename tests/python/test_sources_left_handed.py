@@ -324,7 +324,8 @@ def test_a_unity_like_source_comes_back_as_it_was_written(tmp_path):
 
 
 def test_the_golden_box_is_the_same_from_the_left_hand(tmp_path):
-    """A hinge from -10 to 80 degrees and a slide, in millimetres with Z up, through the whole export."""
+    """A hinge from -10 to 80 degrees and a slide, in millimetres with Z up, through the whole export.  Beside the component stands
+    that the source itself counts the turn the other way."""
     source = FIXTURES / "hinge_slider_zup" / "hinge_slider.bundle.json"
     right = json.loads(source.read_text("utf-8"))
     right["meta"].pop("mesh")
@@ -336,4 +337,6 @@ def test_the_golden_box_is_the_same_from_the_left_hand(tmp_path):
         path.write_text(json.dumps(values), "utf-8")
         document = json.loads(kinefab.export(path, tmp_path / "box.kinefab").path.read_text("utf-8"))
         documents.append({key: document[key] for key in ("gameObjects", "analysis", "report")})
-    assert differences(*documents, 1e-9) == []
+    assert differences(*documents, 1e-9) == [
+        "/gameObjects/3/components/1/extras/asStated/freedoms/rx/sign: only on one side"
+    ]

@@ -92,7 +92,7 @@ internal sealed class LoopConsistencyProbe
         {
             cancellation.ThrowIfCancellationRequested();
             island.Loops = LoopConsistency.Inconsistent;
-            LoopConsistency fit = island.HasLoops && Array.Exists(island.Blocks, block => block.Angular != AngularForm.None)
+            LoopConsistency fit = island.HasJointLoops && Array.Exists(island.Blocks, block => block.Angular != AngularForm.None)
                 ? new LoopConsistencyProbe(island, mechanism, cancellation).Fit()
                 : LoopConsistency.Exact;
             if (fit != LoopConsistency.Exact)

@@ -6,6 +6,7 @@ using Kinefab.Diagnostics;
 using Kinefab.Document;
 using Kinefab.Dynamics;
 using Kinefab.Dynamics.Rattle;
+using Kinefab.Joints;
 using Kinefab.Numerics;
 using Kinefab.Validation;
 using NUnit.Framework;
@@ -54,6 +55,36 @@ internal sealed class LoopConsistencyTests
     {
         ValidScene scene = SmallScene.Validate(HubScenes.Grid(cells));
         Assert.That(World.Create(scene, SolverKind.Exact).Findings.Diagnostics, Is.Empty);
+    }
+
+    /// <summary>Gears make no loop of axes, however slowly the joints beside them would turn the axes apart.</summary>
+    [Test]
+    public void Find_RandomChainsWithGears_NamesNothing()
+    {
+        var random = new Random(7);
+        for (int chain = 0; chain < 200; chain++)
+        {
+            var b = new MechanismBuilder();
+            Vector3d at = Vector3d.Zero;
+            int last = JointModel.World;
+            var hinges = new RevoluteJoint[6];
+            for (int i = 0; i < hinges.Length; i++)
+            {
+                Vector3d next = at + Math.Pow(10, -1.5 * random.NextDouble()) * Direction();
+                int body = b.Bar(at, next, Math.Pow(10, random.NextDouble() - 0.5));
+                hinges[i] = b.Hinge(last, body, at, Direction());
+                (last, at) = (body, next);
+            }
+
+            foreach (int i in new[] { 1, 2, 4, 5 })
+            {
+                b.Couple(hinges[i], (hinges[i - 1], -4 * random.NextDouble()));
+            }
+
+            Assert.That(LoopConsistencyProbe.Find(b.Build()), Is.Empty, $"chain {chain}");
+        }
+
+        Vector3d Direction() => new Vector3d(random.NextDouble() - 0.5, random.NextDouble() - 0.5, random.NextDouble() - 0.5).Normalized();
     }
 
     [Test]

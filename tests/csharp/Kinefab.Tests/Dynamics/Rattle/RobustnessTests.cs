@@ -19,8 +19,8 @@ internal sealed class RobustnessTests
     private const int LongScenes = 150;
     private const int LongSteps = 200;
 
-    // Of the many, some of which move farther in a step than any cut follows: stops with a motion.
-    private const int MostStops = 3;
+    // Of the many, one moves farther in a step than any cut follows: stops with a motion.
+    private const int MostStops = 1;
 
     // Shorter steps that decide whether a scene that stops has a motion.
     private const int Finer = 64;

@@ -16,7 +16,7 @@ from ..options import Ground
 from ..rigid import RigidGroups, active_nodes, is_dynamic, is_kinematic
 from . import frames
 from .apart import apart_id, apart_joint
-from .as_stated import with_stated as with_stated_of_part
+from .as_stated import with_stated
 from .assets.clips import map_clip
 from .assets.meshes import MappedMeshes
 from .assets.surfaces import map_physics_material, map_surface
@@ -25,9 +25,8 @@ from .bodies.rigidbodies import Rigidbodies, carried_along, held_below, map_rigi
 from .bodies.standing import Standing, find_standing
 from .constraints import map_constraint
 from .joints.couplings import map_coupling, screw_couplings
-from .joints.mapping import UnityJoint, map_joint, with_stated
+from .joints.mapping import UnityJoint, map_joint, with_source
 from .joints.passive import with_passive_drives
-from .joints.source_joint import source_of
 from .mobility import map_mobility
 from .placing import at_home, local_transforms, transform_of, with_all_below
 from .scene import (
@@ -152,7 +151,7 @@ class _Builder:
             above = self.ground if parent is None else self.object_of[parent]
             if beside[i] != node.parent:
                 self.report.kept(f"part {node.id}", node.where, "GROUNDED_STANDS_BESIDE", node=node.id)
-            extras = with_stated_of_part(self.scene, i, self.groups.standing, self.rigidbodies.carrier_of[i] is None)
+            extras = with_stated(self.scene, i, self.groups.standing, self.rigidbodies.carrier_of[i] is None)
             index = self._object(
                 GameObject(
                     node.id, node.name, above, active[i], placed[i],
@@ -281,8 +280,7 @@ class _Builder:
                 continue
             connected = self.ground if mapped.connected is None else self.object_of[mapped.connected]
             component = replace(mapped.component, connectedBody=connected, **mapped.beside(self.scene))
-            component = with_stated(component, joint, mapped.coordinates)
-            component = replace(component, extras={**component.extras, **source_of(joint, number, mapped.on_a)})
+            component = with_source(component, mapped, joint, number)
             components = self.components[self.object_of[mapped.owner]]
             components.append(component)
             self.joints[joint.id] = (mapped, len(components) - 1)

@@ -10,9 +10,8 @@ from ..model import Joint as ModelJoint
 from ..model import Scene
 from ..rigid import RigidGroups
 from .contact.overlaps import bodies_of
-from .joints.mapping import map_joint, with_stated
+from .joints.mapping import map_joint, with_source
 from .joints.passive import with_passive_drives
-from .joints.source_joint import source_of
 from .scene import Component, Coupling, Joint, JointCoordinate, UnityScene
 
 
@@ -66,8 +65,7 @@ def _component(
     if mapped is None:
         return None
     component = replace(mapped.component, enabled=False, **mapped.beside(scene))
-    component = with_stated(component, joint, mapped.coordinates)
-    component = replace(component, extras={**component.extras, **source_of(joint, number, mapped.on_a)})
+    component = with_source(component, mapped, joint, number)
     if not lost:
         report.kept(feature, joint.where, "JOINT_DISABLED", joint=joint.id)
     return mapped.owner, mapped.connected, component

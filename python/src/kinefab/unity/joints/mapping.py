@@ -32,6 +32,7 @@ from .hinge import fits_hinge, hinge_fields
 from .limits import report_gap, turns_as_travel
 from .passive import OWN, stated_of, unbounded
 from .placement import Placement, place
+from .source_joint import source_of
 
 LOSSES = ("JOINT_BETWEEN_LED", "JOINT_REDUNDANT", "JOINT_REMOVES_NOTHING")
 """Why a joint has no component, where that loses something."""
@@ -154,6 +155,12 @@ def with_stated(component: MappedJoint, joint: Joint, coordinates: Mapping[int, 
     component = replace(component, **stated_of(joint, names))
     own = [name for i, name in names.items() if unbounded(joint.freedoms[i]) and joint.slerp is None]
     return replace(component, extras={**component.extras, OWN: own}) if own else component
+
+
+def with_source(component: MappedJoint, mapped: UnityJoint, joint: Joint, number: int) -> MappedJoint:
+    """With all that stands beside Unity's own fields.  joint: the source's, with its passive springs; number: its place there."""
+    component = with_stated(component, joint, mapped.coordinates)
+    return replace(component, extras={**component.extras, **source_of(joint, number, mapped.on_a)})
 
 
 def _why_none(

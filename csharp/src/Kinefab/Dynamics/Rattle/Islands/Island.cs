@@ -163,11 +163,14 @@ internal sealed class Island
     /// <summary>Whether a body of theirs moves as it is told.</summary>
     public bool HasKinematic { get; }
 
+    // As many as hang up the bodies, and one.
+    private int LeastWithLoop => MovingBodies + (Bodies.Length > MovingBodies ? 1 : 0);
+
     /// <summary>Whether there are more joints and couplings than it takes to hang up the bodies, all that does not move being one.</summary>
-    public bool HasLoops => Blocks.Length >= MovingBodies + (Bodies.Length > MovingBodies ? 1 : 0);
+    public bool HasLoops => Blocks.Length >= LeastWithLoop;
 
     /// <summary>The same of joints alone: whether axes may contradict each other round a loop.</summary>
-    public bool HasJointLoops => Array.FindAll(Blocks, block => block.Joint != null).Length >= MovingBodies + (Bodies.Length > MovingBodies ? 1 : 0);
+    public bool HasJointLoops => Array.FindAll(Blocks, block => block.Joint != null).Length >= LeastWithLoop;
 
     /// <summary>Whether rows may repeat each other or ask for a turn that a body does not make: by loops or by infinite moments.</summary>
     public bool IsRedundant => HasLoops || LockedInertiaBodies.Length > 0;

@@ -153,6 +153,9 @@ internal struct ScalarRow
     /// <summary>Whether a drive's force has no bound to a side.</summary>
     public readonly bool IsEndless => Math.Max(Built.Maximum, -Built.Minimum) > Endless;
 
+    /// <summary>Whether it is there and a drive whose force has no bound to a side.</summary>
+    public readonly bool IsEndlessDrive => IsActive && Built.Has(RowFlags.Drive) && IsEndless;
+
     /// <summary>Whether it has none to either side, so that a motor keeps its speed whatever strikes.</summary>
     public readonly bool HoldsThroughBlows => Math.Min(Built.Maximum, -Built.Minimum) > Endless;
 

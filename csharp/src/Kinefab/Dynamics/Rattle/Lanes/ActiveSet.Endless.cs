@@ -49,10 +49,20 @@ internal sealed partial class ActiveSet<V>
     }
 
     /// <summary>Whether a drive has no limit of force.</summary>
-    public bool HasEndless() => Array.Exists(_rows, row => row.IsActive && row.Built.Has(RowFlags.Drive) && row.IsEndless);
+    public bool HasEndless() => Array.Exists(_rows, row => row.IsEndlessDrive);
 
     /// <summary>Whether a drive is held, see <see cref="HeldDrives"/>.</summary>
-    public bool HasHeld() => Array.Exists(_rows, row => row.IsHeld);
+    public bool HasHeld()
+    {
+        // Each step asks: no row is copied.
+        int i = 0;
+        while (i < _rows.Length && !_rows[i].IsHeld)
+        {
+            i++;
+        }
+
+        return i < _rows.Length;
+    }
 
     /// <summary>Notes whether a drive is held.</summary>
     public void Hold(int index, bool isHeld) => _rows[index].IsHeld = isHeld;

@@ -230,7 +230,7 @@ internal sealed partial class ActiveSet<V>
             ref readonly ConstraintRow row = ref _rows[i].Built;
             found |= !_rows[i].IsActive ? StepTroubles.None
                 : IsHardLimit(row) && row.GeometricError <= reach ? StepTroubles.Limit
-                : row.Has(RowFlags.Drive) && _rows[i].IsEndless ? StepTroubles.EndlessDrive
+                : _rows[i].IsEndlessDrive ? StepTroubles.EndlessDrive
                 : StepTroubles.None;
         }
 

@@ -1,5 +1,4 @@
 using System;
-using Kinefab.Joints;
 using Kinefab.Numerics;
 
 namespace Kinefab.Dynamics.Rattle;
@@ -26,11 +25,11 @@ internal static class HeldDrives
         for (int i = 0; i < scalars.Count; i++)
         {
             ref readonly ScalarRow row = ref scalars.Row(i);
-            scalars.Hold(i, row.IsActive && row.Built.Has(RowFlags.Drive) && row.IsEndless && IsHeld(batch, scalars, exact, row));
+            scalars.Hold(i, row.IsEndlessDrive && IsHeld(batch, exact, row));
         }
     }
 
-    private static bool IsHeld(LaneBatch<ScalarLane> batch, ActiveSet<ScalarLane> scalars, ConjugateGradient exact, in ScalarRow row)
+    private static bool IsHeld(LaneBatch<ScalarLane> batch, ConjugateGradient exact, in ScalarRow row)
     {
         double[] speeds = batch.Work.Solution;
         double[] answer = batch.Work.LastSolution;
@@ -43,7 +42,6 @@ internal static class HeldDrives
             speeds[i] -= answer[i];
         }
 
-        scalars.ClearAtBound(speeds);
         exact.Solve(false);
         double before = Impulses<ScalarLane>.Speed(batch, row.Block, row.Built);
         Impulses<ScalarLane>.Apply(batch, speeds);

@@ -120,7 +120,7 @@ internal sealed class LaneIslandGroup<V> : IslandGroup
         Array.Clear(_rests, 0, _rests.Length);
         for (int lane = 0; lane < free.Occupied; lane++)
         {
-            if (free.IsAlone(lane) || History(index, lane).Halvings > 0 || free.Demand(lane, dt) > 1)
+            if (free.IsAlone(lane) || History(index, lane).IsAlone || free.Demand(lane, dt) > 1)
             {
                 free.Leave(lane);
             }

@@ -14,6 +14,15 @@ internal struct SubstepHistory
 
     public int Halvings { get; private set; }
 
+    /// <summary>
+    /// Whether the island's loops are at a pose where branches of their motion meet, as a parallelogram's that lies flat: speeds that J allows there are a
+    /// mixture of the branches', of which no motion comes, and what the loop takes of them is lost whatever the step.
+    /// </summary>
+    public bool IsSingular { get; set; }
+
+    /// <summary>Whether its next step is to be taken alone.</summary>
+    public readonly bool IsAlone => Halvings > 0 || IsSingular;
+
     /// <summary>Takes note of a step.</summary>
     /// <param name="halvings">Halvings that it took.</param>
     /// <param name="demand">See <see cref="StepLimit"/>.</param>

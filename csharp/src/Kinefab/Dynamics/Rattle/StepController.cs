@@ -123,20 +123,22 @@ internal sealed class StepController
     {
         ActiveSet<ScalarLane> scalars = _batch.ActiveSet!;
         int first = stalled.Count;
+        bool areOpposed = scalars.HasHeldStalled();
         for (int i = 0; i < scalars.Count; i++)
         {
             ref readonly ScalarRow row = ref scalars.Row(i);
-            if (!row.IsStalled && !scalars.IsPushed(row, weight))
+            bool isDrive = row.IsStalled || (areOpposed && row.IsOpposing);
+            if (!isDrive && !scalars.IsPushed(row, weight))
             {
                 continue;
             }
 
             // A joint's drives stand before its limits.
             JointModel joint = island.Blocks[row.Block].Joint!;
-            bool isOwnLimit = !row.IsStalled && stalled.RemoveAll(one => one.IsDrive && one.Joint == joint) > 0;
+            bool isOwnLimit = !isDrive && stalled.RemoveAll(one => one.IsDrive && one.Joint == joint) > 0;
             if (!isOwnLimit)
             {
-                stalled.Add(new StalledJoint { Body = island.Bodies[0], Joint = joint, IsDrive = row.IsStalled });
+                stalled.Add(new StalledJoint { Body = island.Bodies[0], Joint = joint, IsDrive = isDrive });
             }
         }
 
@@ -196,6 +198,7 @@ internal sealed class StepController
         _hasMoved = false;
         _part.IsEager = hasFailed && _batch.ActiveSet != null;
         _isAudited = LaneEnergy<ScalarLane>.IsKnown(_batch, 0);
+        _batch.ActiveSet?.BeginPace(dt);
         isMoved |= _batch.ActiveSet != null && _batch.ActiveSet.IsNewlyPassed();
         HasClosed = isMoved && _closure.TryClose(tolerance);
         _forbidden = isMoved && !_batch.Shape.IsInconsistent ? InitialVelocityProjection.Find(_batch, out _forbiddenSpeed) : -1;
@@ -258,6 +261,7 @@ internal sealed class StepController
         cut.IsSingular = _isSingular && !new EnergyAudit(_batch, dt, tolerance).IsKept(_energy, false, MostEnergyChange);
         Enter(ref cut.Energy);
         cut.Record(halvings, demand);
+        cut.IsSlowedDown = _batch.ActiveSet != null && _batch.ActiveSet.EndPace(tolerance);
         _part.SetLength(dt);
         if (_dampedInStep == 0 || _hasMoved)
         {

@@ -20,8 +20,11 @@ internal struct SubstepHistory
     /// </summary>
     public bool IsSingular { get; set; }
 
+    /// <summary>Whether a drive is slowed down, as the mechanism did not follow it.</summary>
+    public bool IsSlowedDown { get; set; }
+
     /// <summary>Whether its next step is to be taken alone.</summary>
-    public readonly bool IsAlone => Halvings > 0 || IsSingular;
+    public readonly bool IsAlone => Halvings > 0 || IsSingular || IsSlowedDown;
 
     /// <summary>Takes note of a step.</summary>
     /// <param name="halvings">Halvings that it took.</param>

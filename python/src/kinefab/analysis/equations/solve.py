@@ -31,6 +31,8 @@ CUT = 1e-8
 """Singular values below this fraction of the largest take no part in a step."""
 CURVATURE = 4.0
 """Of rows: most that a residual is beside its linearisation, over the square of the step; two unit lengths and angles make 1 or 2."""
+FEW = 72
+"""Largest number of unknowns for which a cautious step, which takes singular values, is worth its time."""
 DENSE = 180
 """Largest number of unknowns solved densely."""
 DAMPING = 1e-14
@@ -242,7 +244,7 @@ class Solver:
                 jacobian = self.jacobians(group, block_a, block_b)[take]
                 # a steep coupling's row would hide what the others tell beside it
                 size = np.maximum(1.0, np.linalg.norm(jacobian, axis=2))
-                step = cautious_step if self.cautious else minimum_norm
+                step = cautious_step if self.cautious and jacobian.shape[2] <= FEW else minimum_norm
                 step = -step(jacobian / size[..., None], residual[group.rows[take]] / size)
             step = step.reshape(len(step), -1, 6) * damp[group.members[take]][:, None, None]
             largest = np.abs(step).max(axis=(1, 2), initial=0.0)

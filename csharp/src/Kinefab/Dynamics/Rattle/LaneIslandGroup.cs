@@ -120,7 +120,7 @@ internal sealed class LaneIslandGroup<V> : IslandGroup
         Array.Clear(_rests, 0, _rests.Length);
         for (int lane = 0; lane < free.Occupied; lane++)
         {
-            if (free.IsAlone(lane) || History(index, lane).Halvings > 0 || free.Demand(lane, dt) > 1)
+            if (free.IsAlone(lane) || History(index, lane).IsAlone || free.Demand(lane, dt) > 1)
             {
                 free.Leave(lane);
             }
@@ -198,6 +198,7 @@ internal sealed class LaneIslandGroup<V> : IslandGroup
         LaneTransfer<ScalarLane>.Gather(_spare, _mechanism, dt);
         LaneTransfer<ScalarLane>.BeginStep(_spare);
         _spare.ClearHistory();
+        _spare.Scalars?.ClearSlowdowns();
         LaneTransfer<V>.CopyGuess(free.Batch, lane, _spare, 0);
         AxisRows<V>? axes = (_resting.Length > 0 ? _resting[index] : free).Batch.Axes;
         AloneMemory? memory = _memories.Length > 0 ? _memories[index * Lane<V>.Width + lane] : null;

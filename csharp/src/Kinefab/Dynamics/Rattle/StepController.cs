@@ -38,6 +38,10 @@ internal sealed class StepController
     // Of what energy may grow by in a step, the share that is a part's from the start on; the rest comes with the time.
     private const double EarlyShare = 0.25;
 
+    // Halvings after which a loss that is still more than a share of what it was at first is none of the step's.
+    private const int TellingHalvings = 3;
+    private const double KeptLoss = 0.5;
+
     // What a part that stands still leaves of the speeds.
     private const double KeptSpeed = 0.9;
 
@@ -56,6 +60,9 @@ internal sealed class StepController
     private double _forbiddenSpeed;
     private StepTroubles _troubles;
     private bool _isAudited;
+    private bool _isSingular;
+    private int _firstLossHalvings;
+    private double _firstLoss;
     private EnergyAudit _energy;
     private double _dt;
     private double _elapsed;
@@ -116,20 +123,22 @@ internal sealed class StepController
     {
         ActiveSet<ScalarLane> scalars = _batch.ActiveSet!;
         int first = stalled.Count;
+        bool areOpposed = scalars.HasHeldStalled();
         for (int i = 0; i < scalars.Count; i++)
         {
             ref readonly ScalarRow row = ref scalars.Row(i);
-            if (!row.IsStalled && !scalars.IsPushed(row, weight))
+            bool isDrive = row.IsStalled || (areOpposed && row.IsOpposing);
+            if (!isDrive && !scalars.IsPushed(row, weight))
             {
                 continue;
             }
 
             // A joint's drives stand before its limits.
             JointModel joint = island.Blocks[row.Block].Joint!;
-            bool isOwnLimit = !row.IsStalled && stalled.RemoveAll(one => one.IsDrive && one.Joint == joint) > 0;
+            bool isOwnLimit = !isDrive && stalled.RemoveAll(one => one.IsDrive && one.Joint == joint) > 0;
             if (!isOwnLimit)
             {
-                stalled.Add(new StalledJoint { Body = island.Bodies[0], Joint = joint, IsDrive = row.IsStalled });
+                stalled.Add(new StalledJoint { Body = island.Bodies[0], Joint = joint, IsDrive = isDrive });
             }
         }
 
@@ -189,6 +198,7 @@ internal sealed class StepController
         _hasMoved = false;
         _part.IsEager = hasFailed && _batch.ActiveSet != null;
         _isAudited = LaneEnergy<ScalarLane>.IsKnown(_batch, 0);
+        _batch.ActiveSet?.BeginPace(dt);
         isMoved |= _batch.ActiveSet != null && _batch.ActiveSet.IsNewlyPassed();
         HasClosed = isMoved && _closure.TryClose(tolerance);
         _forbidden = isMoved && !_batch.Shape.IsInconsistent ? InitialVelocityProjection.Find(_batch, out _forbiddenSpeed) : -1;
@@ -201,6 +211,8 @@ internal sealed class StepController
         int stops = DampedSteps;
         double demand = StepLimit.Of(_batch, dt);
         int halvings = Math.Max(cut.Halvings, hasFailed && !_part.IsEager ? 1 : 0);
+        _isSingular = cut.IsSingular;
+        _firstLoss = 0;
         while (halvings < MaxHalvings && demand > 1 << halvings)
         {
             halvings++;
@@ -215,7 +227,7 @@ internal sealed class StepController
             FindHeldDrives(dt);
         }
 
-        while (!TrySubsteps(dt, halvings, tolerance) || !IsEnergyKept(halvings, dt))
+        while (!TryEvenParts(dt, halvings, tolerance))
         {
             Return(_start, dt);
             _hasMoved = false;
@@ -241,11 +253,15 @@ internal sealed class StepController
                 break;
             }
 
-            halvings += wasEager ? 1 : 0;
+            bool isFoundSingular = _isSingular && !cut.IsSingular;
+            cut.IsSingular = _isSingular;
+            halvings = isFoundSingular ? _firstLossHalvings : wasEager ? halvings + 1 : halvings;
         }
 
+        cut.IsSingular = _isSingular && !new EnergyAudit(_batch, dt, tolerance).IsKept(_energy, false, MostEnergyChange);
         Enter(ref cut.Energy);
         cut.Record(halvings, demand);
+        cut.IsSlowedDown = _batch.ActiveSet != null && _batch.ActiveSet.EndPace(tolerance);
         _part.SetLength(dt);
         if (_dampedInStep == 0 || _hasMoved)
         {
@@ -309,7 +325,7 @@ internal sealed class StepController
         }
     }
 
-    private bool MayLose => _batch.Shape.HasKinematic || CompliantAngles<ScalarLane>.HaveActed(_batch, 0, _energy.Kinetic) || _batch.ActiveSet is { HasActed: true };
+    private bool MayLose => _isSingular || _batch.Shape.HasKinematic || CompliantAngles<ScalarLane>.HaveActed(_batch, 0, _energy.Kinetic) || _batch.ActiveSet is { HasActed: true };
 
     private static JointModel? JointOf(Island island, int row)
     {
@@ -350,6 +366,40 @@ internal sealed class StepController
         double share = EarlyShare + (1 - EarlyShare) * (_elapsed + h) / _dt;
         bool mayLose = MayLose || halvings >= MostEven;
         return !_isAudited || new EnergyAudit(_batch, _dt, _tolerance).IsKept(_energy, mayLose, share * (mayLose ? MostEnergyGain : MostEnergyChange));
+    }
+
+    private bool TryEvenParts(double dt, int halvings, double tolerance)
+    {
+        if (!TrySubsteps(dt, halvings, tolerance))
+        {
+            return false;
+        }
+
+        if (IsEnergyKept(halvings, dt))
+        {
+            return true;
+        }
+
+        FindSingular(halvings);
+        return false;
+    }
+
+    // What a step that is too long loses, shorter ones do not lose; what goes where branches of a loop's motion meet, goes whatever their length.
+    private void FindSingular(int halvings)
+    {
+        double loss = -new EnergyAudit(_batch, _dt, _tolerance).GainSince(_energy);
+        if (_isSingular || !(loss > 0) || !_batch.Shape.HasJointLoops)
+        {
+            return;
+        }
+
+        if (_firstLoss == 0)
+        {
+            _firstLoss = loss;
+            _firstLossHalvings = halvings;
+        }
+
+        _isSingular = halvings >= _firstLossHalvings + TellingHalvings && loss > KeptLoss * _firstLoss;
     }
 
     private bool TrySubsteps(double dt, int halvings, double tolerance)

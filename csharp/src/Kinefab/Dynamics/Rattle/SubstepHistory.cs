@@ -14,6 +14,18 @@ internal struct SubstepHistory
 
     public int Halvings { get; private set; }
 
+    /// <summary>
+    /// Whether the island's loops are at a pose where branches of their motion meet, as a parallelogram's that lies flat: speeds that J allows there are a
+    /// mixture of the branches', of which no motion comes, and what the loop takes of them is lost whatever the step.
+    /// </summary>
+    public bool IsSingular { get; set; }
+
+    /// <summary>Whether a drive is slowed down, as the mechanism did not follow it.</summary>
+    public bool IsSlowedDown { get; set; }
+
+    /// <summary>Whether its next step is to be taken alone.</summary>
+    public readonly bool IsAlone => Halvings > 0 || IsSingular || IsSlowedDown;
+
     /// <summary>Takes note of a step.</summary>
     /// <param name="halvings">Halvings that it took.</param>
     /// <param name="demand">See <see cref="StepLimit"/>.</param>

@@ -65,6 +65,9 @@ internal struct ScalarRow
     /// <summary>A bound of force beyond this is none: Unity's own "no limit" is the largest float, 3.4e38.</summary>
     public const double Endless = 1e30;
 
+    /// <summary>By how much a drive may become faster in a step.</summary>
+    public const double SlowerBy = 2;
+
     public RowKind Kind;
     public RowState State;
 
@@ -110,11 +113,20 @@ internal struct ScalarRow
     /// <summary>Speed of the row at the start of the step; in an impact, before it.</summary>
     public double StartSpeed;
 
-    /// <summary>Whether the joints alone hold a drive without limit of force: see <see cref="HeldDrives"/>.</summary>
+    /// <summary>Whether the joints hold a drive without limit of force, alone or with other such drives: see <see cref="HeldDrives"/>.</summary>
     public bool IsHeld;
+
+    /// <summary>Whether it is one of those other drives.</summary>
+    public bool IsOpposing;
 
     /// <summary>Whether a drive without limit of force gave, in the last piece of a part, all that <see cref="BoundForce"/> leaves it.</summary>
     public bool IsStalled;
+
+    /// <summary>How often the speed of a drive without limit of force was halved, as the mechanism did not follow it.</summary>
+    public int Slowdowns;
+
+    /// <summary>Which way it was asked to go then: the sign of its speed.</summary>
+    public int SlowdownSide;
 
     /// <summary>Time since the joint left its limit, as far as it was in this part of a step; else infinite, s.</summary>
     public double Flight;
@@ -152,6 +164,9 @@ internal struct ScalarRow
 
     /// <summary>Whether a drive's force has no bound to a side.</summary>
     public readonly bool IsEndless => Math.Max(Built.Maximum, -Built.Minimum) > Endless;
+
+    /// <summary>What is left of the speed of a drive that was slowed down.</summary>
+    public readonly double Pace => Slowdowns == 0 ? 1 : Math.Pow(SlowerBy, -Slowdowns);
 
     /// <summary>Whether it is there and a drive whose force has no bound to a side.</summary>
     public readonly bool IsEndlessDrive => IsActive && Built.Has(RowFlags.Drive) && IsEndless;
@@ -212,6 +227,16 @@ internal struct ScalarRow
     /// <summary>The C that is wanted of a prescribed motion at the end of the step, of e^(-x) to second order and never beyond the goal.</summary>
     /// <param name="h">Step, s.</param>
     public void SetMotion(double h) => EndError = StartError / Growth(h);
+
+    /// <summary>Slows a drive down, or lets it go faster again.</summary>
+    /// <param name="times">How often it is slowed down in all.</param>
+    public void SlowDown(int times)
+    {
+        double before = Pace;
+        Slowdowns = times;
+        Built.VelocityTarget *= Pace / before;
+        Built.Stiffness *= Pace / before;
+    }
 
     /// <summary>The speed that a drive is asked for, 1/s of its C.</summary>
     /// <param name="h">Step, s.</param>

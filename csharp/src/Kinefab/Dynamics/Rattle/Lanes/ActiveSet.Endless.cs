@@ -1,4 +1,5 @@
 using System;
+using System.Collections.Generic;
 using Kinefab.Joints;
 using Kinefab.Numerics;
 
@@ -10,6 +11,17 @@ internal sealed partial class ActiveSet<V>
     // By how much the levers of a loop, and gears, may multiply what reaches a drive. More makes the answer of a drive that stalls so large that steps fail.
     private const double MostByLevers = 30;
     private const double MostByGears = 1e3;
+
+    // Of a drive that nothing can follow, its speed is a millionth.
+    private const int MostSlowdowns = 20;
+    private const int Slowdown = 2;
+
+    // In a step a drive to a goal begins with no more than this turn, rad, or this share of what the mechanism reaches.
+    private const double MostTurn = 0.5;
+    private const double MostWay = 0.1;
+
+    // Of the speed that it was asked for, less is a drive that the mechanism does not follow.
+    private const double LeastFollowed = 0.5;
 
     // What is reckoned of speeds and loads, this many times.
     private const double Margin = 4;
@@ -26,7 +38,7 @@ internal sealed partial class ActiveSet<V>
         bool isAngular = drive.Built.Has(RowFlags.Angular);
         double speed = Math.Abs(drive.AskedSpeed(h));
         double levers = _batch.Shape.HasLoops ? MostByLevers : 1;
-        Vector3d anchor = LaneTransfer<V>.ReadPose(_batch, _batch.Shape.Blocks[drive.Block].Bodies[0], 0).Point(_batch.Models[drive.Block]!.Frame0.Position);
+        Vector3d anchor = Anchor(drive);
         double reach = 0, mass = 0, moments = 0, momentum = 0, load = 0;
         for (int body = 0; body < _batch.Shape.MovingBodies; body++)
         {
@@ -42,10 +54,80 @@ internal sealed partial class ActiveSet<V>
         }
 
         double inertia = isAngular ? moments : levers > 1 && reach > 0 ? mass + levers * moments / (reach * reach) : mass;
-        double impulse = Margin * (inertia * speed + momentum + (load + levers * Opposed(drive, h, speed, reach)) * h) + inertia * mostAcceleration * h;
+        double impulse = Margin * (inertia * speed + momentum + (load + levers * Opposed(drive, h, speed, reach)) * h) + inertia * mostAcceleration * Math.Sqrt(drive.Pace) * h;
         return ByGears(reach) * impulse;
 
-        double Length(int number, Vector3d from = default) => (LaneTransfer<V>.ReadVector(_batch.Bodies, number) - from).Length;
+    }
+
+    // How far from a drive's joint the farthest body is, m.
+    private double FarthestBody(in ScalarRow drive)
+    {
+        Vector3d anchor = Anchor(drive);
+        double reach = 0;
+        for (int body = 0; body < _batch.Shape.MovingBodies; body++)
+        {
+            reach = Math.Max(reach, Length(LaneRecords<V>.Body(body, BodyLanes.EndX), anchor));
+        }
+
+        return reach;
+    }
+
+    private Vector3d Anchor(in ScalarRow drive) =>
+        LaneTransfer<V>.ReadPose(_batch, _batch.Shape.Blocks[drive.Block].Bodies[0], 0).Point(_batch.Models[drive.Block]!.Frame0.Position);
+
+    private double Length(int number, Vector3d from = default) => (LaneTransfer<V>.ReadVector(_batch.Bodies, number) - from).Length;
+
+    /// <summary>
+    /// Before a step: a drive to a goal far away does not begin with the whole speed that its gap asks for, lest what lies beyond the mechanism's reach
+    /// throw it about; it may be <see cref="ScalarRow.SlowerBy"/> times faster in each step.
+    /// </summary>
+    /// <param name="dt">Step, s.</param>
+    public void BeginPace(double dt)
+    {
+        for (int i = 0; i < _rows.Length; i++)
+        {
+            ref ScalarRow scalar = ref _rows[i];
+            if (!scalar.IsEndlessDrive || Math.Sign(scalar.Built.VelocityTarget) == -scalar.SlowdownSide)
+            {
+                scalar.SlowDown(0);
+            }
+
+            if (!scalar.IsEndlessDrive || !scalar.Built.Has(RowFlags.Motion))
+            {
+                continue;
+            }
+
+            double most = Math.Max(scalar.Built.Has(RowFlags.Angular) ? MostTurn : MostWay * FarthestBody(scalar), ScalarRow.SlowerBy * dt * Math.Abs(StartSpeed(scalar)));
+            double error = Math.Abs(scalar.Built.GeometricError);
+            while (most > 0 && scalar.Slowdowns < MostSlowdowns && error - error / scalar.Growth(dt) > most)
+            {
+                scalar.SlowDown(scalar.Slowdowns + 1);
+            }
+        }
+    }
+
+    /// <summary>After a step: a drive without limit of force asks for less where the mechanism did not follow it, and for more again where it did.</summary>
+    /// <param name="tolerance">m/s or rad/s.</param>
+    /// <returns>Whether one is slowed down.</returns>
+    public bool EndPace(double tolerance)
+    {
+        bool isAny = false;
+        for (int i = 0; i < _rows.Length; i++)
+        {
+            ref ScalarRow scalar = ref _rows[i];
+            if (!scalar.IsEndlessDrive || scalar.IsHeld || scalar.Kind is not (RowKind.SpeedMotor or RowKind.Motion))
+            {
+                continue;
+            }
+
+            double asked = scalar.Built.VelocityTarget;
+            scalar.SlowdownSide = Math.Sign(asked);
+            bool isFollowed = !scalar.IsStalled && StartSpeed(scalar) * scalar.SlowdownSide >= LeastFollowed * Math.Abs(asked) - tolerance;
+            scalar.SlowDown(isFollowed ? Math.Max(0, scalar.Slowdowns - 1) : Math.Min(MostSlowdowns, scalar.Slowdowns + Slowdown));
+            isAny |= scalar.Slowdowns > 0;
+        }
+
+        return isAny;
     }
 
     /// <summary>Whether a drive has no limit of force.</summary>
@@ -64,8 +146,31 @@ internal sealed partial class ActiveSet<V>
         return i < _rows.Length;
     }
 
-    /// <summary>Notes whether a drive is held.</summary>
-    public void Hold(int index, bool isHeld) => _rows[index].IsHeld = isHeld;
+    /// <summary>Indices of the drives without limit of force, of which none is held or opposes one yet.</summary>
+    public int[] EndlessDrives()
+    {
+        var found = new List<int>();
+        for (int i = 0; i < _rows.Length; i++)
+        {
+            _rows[i].IsHeld = false;
+            _rows[i].IsOpposing = false;
+            if (_rows[i].IsEndlessDrive)
+            {
+                found.Add(i);
+            }
+        }
+
+        return found.ToArray();
+    }
+
+    /// <summary>Notes that a drive is held.</summary>
+    public void Hold(int index) => _rows[index].IsHeld = true;
+
+    /// <summary>Notes that a drive takes part in holding one.</summary>
+    public void Oppose(int index) => _rows[index].IsOpposing = true;
+
+    /// <summary>Whether a drive that opposes others holds one that stalls.</summary>
+    public bool HasHeldStalled() => Array.Exists(_rows, row => row.IsHeld && row.IsStalled);
 
     // By how much gears may multiply an inertia, by the square of their ratios, or a load, by less. reach: of angles, by which they compare with ways, m.
     private double ByGears(double reach)

@@ -16,7 +16,7 @@ internal sealed partial class ActiveSet<V>
             ref ScalarRow scalar = ref _rows[i];
             _batch.VelocityImpulses[scalar.Index] = 0;
             scalar.ImpulseSecondHalf = 0;
-            scalar.IsStalled = scalar.IsHeld ? scalar.IsActive && Math.Abs(scalar.Built.VelocityTarget) > tolerance
+            scalar.IsStalled = scalar.IsHeld ? scalar.IsActive && !IsMoved(scalar, tolerance)
                 : scalar.Kind is RowKind.SpeedMotor or RowKind.Motion && scalar.State == RowState.AtBound && scalar.IsEndless;
             if (!scalar.IsActive || scalar.Kind == RowKind.None)
             {
@@ -163,6 +163,14 @@ internal sealed partial class ActiveSet<V>
             ref ScalarRow scalar = ref _rows[i];
             scalar.State = scalar.Kind == RowKind.Spring ? RowState.AtBound : scalar.State;
         }
+    }
+
+    // Whether what holds a drive moves it as it asks.
+    private bool IsMoved(in ScalarRow scalar, double tolerance)
+    {
+        const double share = 1e-3;
+        double asked = scalar.Built.VelocityTarget;
+        return Math.Abs(asked - StartSpeed(scalar)) <= share * Math.Abs(asked) + tolerance;
     }
 
     // A spring that answers holds the drift's speed. Newton's scalar row of impact: the speed after a stop against the speed before

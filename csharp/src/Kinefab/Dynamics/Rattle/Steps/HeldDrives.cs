@@ -1,17 +1,25 @@
 using System;
+using System.Collections.Generic;
 using Kinefab.Numerics;
 
 namespace Kinefab.Dynamics.Rattle;
 
 /// <summary>
-/// Finds the drives without limit of force whose way the joints alone leave no freedom. Such a row j is a combination of theirs, so that what is left of
-/// its response when they answer, j M⁻¹ jᵀ − c A⁻¹ cᵀ with c = j M⁻¹ Jᵀ and A = J M⁻¹ Jᵀ (the Schur complement), is nothing: whatever the drive gave would
-/// load the joints without end and move nothing. It gives nothing, and stalls.
+/// Finds the drives without limit of force whose way the joints, alone or with other such drives, leave no freedom. Such a row j is a combination of
+/// theirs, so that what is left of its response when they answer, j M⁻¹ jᵀ − c A⁻¹ cᵀ with c = j M⁻¹ Jᵀ and A = J M⁻¹ Jᵀ (the Schur complement), is
+/// nothing: whatever the drive gave would load them without end and move nothing. It gives nothing, and stalls where they do not move it as it asks. Of
+/// drives that contradict each other those act that have the most freedom, or else are the slowest.
 /// </summary>
 internal static class HeldDrives
 {
     // Of a row's own response: so far from its dead point no lever is built.
     private const double LeastFree = 1e-9;
+
+    // Of what a held drive's response comes to, the share of another drive from which on that one takes part in holding it.
+    private const double LeastPart = 1e-6;
+
+    // Shares of freedom that rounding may tell apart.
+    private const double Alike = 1e-6;
 
     /// <summary>Marks them. Leaves momenta and matrix for the caller to restore.</summary>
     /// <param name="batch">Built at the start pose.</param>
@@ -22,17 +30,87 @@ internal static class HeldDrives
         batch.Work.Active[0] = 1;
         scalars.Deactivate();
         RattleStep<ScalarLane>.Factor(batch, false);
-        for (int i = 0; i < scalars.Count; i++)
+        int[] drives = scalars.EndlessDrives();
+        List<int>[] opposing = Array.ConvertAll(drives, _ => new List<int>());
+
+        // What the joints leave of the drives' responses, and what the drives that act take from those that are left.
+        double[][] left = Array.ConvertAll(drives, drive => Left(batch, scalars, exact, drives, drive));
+        double[] own = Array.ConvertAll(drives, drive => Impulses<ScalarLane>.ResponseOf(batch, scalars.Row(drive).Block, scalars.Row(drive).Built));
+        double[] byJoints = Array.ConvertAll(Indices(drives), j => left[j][j] / own[j]);
+        var waiting = new List<int>(Indices(drives));
+        while (waiting.Count > 0)
         {
-            ref readonly ScalarRow row = ref scalars.Row(i);
-            scalars.Hold(i, row.IsEndlessDrive && IsHeld(batch, exact, row));
+            int first = First(waiting, left, own, drives, scalars);
+            if (!(left[first][first] >= LeastFree * own[first]))
+            {
+                break;
+            }
+
+            waiting.Remove(first);
+            foreach (int j in waiting)
+            {
+                double share = left[j][first] / left[first][first];
+                if (byJoints[j] >= LeastFree && share * left[j][first] > LeastPart * byJoints[j] * own[j])
+                {
+                    opposing[j].Add(first);
+                }
+
+                foreach (int i in waiting)
+                {
+                    left[j][i] -= share * left[first][i];
+                }
+            }
+        }
+
+        foreach (int j in waiting)
+        {
+            scalars.Hold(drives[j]);
+            opposing[j].ForEach(i => scalars.Oppose(drives[i]));
         }
     }
 
-    private static bool IsHeld(LaneBatch<ScalarLane> batch, ConjugateGradient exact, in ScalarRow row)
+    // The drive that has the most freedom left, in proportion; of those alike the slowest, in whatever order the joints stand.
+    private static int First(List<int> waiting, double[][] left, double[] own, int[] drives, ActiveSet<ScalarLane> scalars)
     {
+        int best = -1;
+        foreach (int j in waiting)
+        {
+            if (best < 0 || Compare(j, best) > 0)
+            {
+                best = j;
+            }
+        }
+
+        return best;
+
+        int Compare(int a, int b)
+        {
+            double difference = left[a][a] / own[a] - left[b][b] / own[b];
+            double speedA = scalars.Row(drives[a]).Built.VelocityTarget, speedB = scalars.Row(drives[b]).Built.VelocityTarget;
+            return Math.Abs(difference) > Alike ? Math.Sign(difference)
+                : Math.Abs(speedA) != Math.Abs(speedB) ? Math.Abs(speedB).CompareTo(Math.Abs(speedA))
+                : speedB.CompareTo(speedA);
+        }
+    }
+
+    private static int[] Indices(int[] of)
+    {
+        int[] indices = new int[of.Length];
+        for (int i = 0; i < indices.Length; i++)
+        {
+            indices[i] = i;
+        }
+
+        return indices;
+    }
+
+    // Speeds along the drives that an impulse of 1 along one of them gives once the joints have answered.
+    private static double[] Left(LaneBatch<ScalarLane> batch, ActiveSet<ScalarLane> scalars, ConjugateGradient exact, int[] drives, int drive)
+    {
+        ref readonly ScalarRow row = ref scalars.Row(drive);
         double[] speeds = batch.Work.Solution;
         double[] answer = batch.Work.LastSolution;
+        double[] before = Array.ConvertAll(drives, SpeedOf);
         Impulses<ScalarLane>.NegativeSpeeds(batch);
         Array.Copy(speeds, answer, speeds.Length);
         Impulses<ScalarLane>.ApplyRow(batch, row.Block, row.Built, 1);
@@ -43,10 +121,15 @@ internal static class HeldDrives
         }
 
         exact.Solve(false);
-        double before = Impulses<ScalarLane>.Speed(batch, row.Block, row.Built);
         Impulses<ScalarLane>.Apply(batch, speeds);
-        double response = Impulses<ScalarLane>.ResponseOf(batch, row.Block, row.Built);
-        double left = response + Impulses<ScalarLane>.Speed(batch, row.Block, row.Built) - before;
-        return left < LeastFree * response;
+        double[] after = Array.ConvertAll(drives, SpeedOf);
+        for (int i = 0; i < after.Length; i++)
+        {
+            after[i] -= before[i];
+        }
+
+        return after;
+
+        double SpeedOf(int index) => Impulses<ScalarLane>.Speed(batch, scalars.Row(index).Block, scalars.Row(index).Built);
     }
 }

@@ -1,0 +1,47 @@
+using System;
+using System.IO;
+using Kinefab.Document;
+using Kinefab.Dynamics;
+using Kinefab.Validation;
+using NUnit.Framework;
+
+namespace Kinefab.Tests.Dynamics.Rattle;
+
+/// <summary>
+/// Parallelograms that begin lying flat, where their two branches of motion meet: J allows more speeds there than any motion has, and what the loop takes of
+/// these is lost whatever the step.
+/// </summary>
+internal sealed class SingularPoseTests
+{
+    private const double Dt = 0.02;
+    private const int Steps = 20;
+
+    [TestCase("M05")]
+    [TestCase("M39")]
+    public void Step_FromFlatPose_TakesFewPartsAndFallsAsWithFinerSteps(string name)
+    {
+        ValidScene scene = ValidScene.Load(Path.Combine(Scenario.Folder, "..", "..", "fixtures", "mechanisms", name + ".kinefab"));
+        World coarse = World.Create(scene, SolverKind.Exact);
+        int most = 0;
+        for (int i = 0; i < Steps; i++)
+        {
+            double before = coarse.SubstepWork;
+            coarse.Step(Dt);
+            most = Math.Max(most, (int)((coarse.SubstepWork - before) / coarse.Joints.Count));
+        }
+
+        World fine = World.Create(scene, SolverKind.Exact);
+        for (int i = 0; i < Steps * 64; i++)
+        {
+            fine.Step(Dt / 64);
+        }
+
+        Assert.That(most, Is.LessThanOrEqualTo(100));
+        Assert.That(coarse.Stops + fine.Stops, Is.Zero);
+        for (int i = 0; i < coarse.Joints.Count; i++)
+        {
+            double expected = fine.Joints[i].Coordinate(Coordinate.Angle);
+            Assert.That(coarse.Joints[i].Coordinate(Coordinate.Angle), Is.EqualTo(expected).Within(10).Percent, coarse.Joints[i].Id);
+        }
+    }
+}

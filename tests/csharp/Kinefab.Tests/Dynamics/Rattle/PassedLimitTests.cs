@@ -38,6 +38,37 @@ public sealed class PassedLimitTests
         Assert.That((world.Stops, world.Joints[0].IsAtLimit), Is.EqualTo((0, true)));
     }
 
+    [TestCase(true, 1)]
+    [TestCase(true, 0.9)]
+    [TestCase(false, 1)]
+    public void Swing_ThrownBetweenItsStops_IsCountedBetweenThem(bool isY, double bounciness)
+    {
+        const double limit = 43;
+        var joint = new ConfigurableJoint
+        {
+            XMotion = ConfigurableJointMotion.Locked,
+            YMotion = ConfigurableJointMotion.Locked,
+            ZMotion = ConfigurableJointMotion.Locked,
+            AngularXMotion = ConfigurableJointMotion.Locked,
+            AngularYMotion = isY ? ConfigurableJointMotion.Limited : ConfigurableJointMotion.Locked,
+            AngularZMotion = isY ? ConfigurableJointMotion.Locked : ConfigurableJointMotion.Limited,
+            AngularYLimit = new SoftJointLimit { Limit = limit, Bounciness = bounciness },
+            AngularZLimit = new SoftJointLimit { Limit = limit },
+        };
+        World world = SmallScene.Create(joint, Body with { MaxAngularVelocity = 1000 }, solver: SolverKind.Exact);
+        world.Bodies[0].AngularVelocity = SmallScene.OwnPose.Rotation * (isY ? new Vector3d(0, 900, 0) : new Vector3d(0, 0, 900));
+        double most = 0;
+
+        for (int i = 0; i < 50; i++)
+        {
+            world.Step(SmallScene.Dt);
+            most = Math.Max(most, Math.Abs(world.Joints[0].Coordinate(isY ? Coordinate.AngularY : Coordinate.AngularZ)));
+        }
+
+        Assert.That(most, Is.LessThanOrEqualTo(limit + 1e-6));
+        Assert.That(world.Stops, Is.Zero);
+    }
+
     [TestCase(-180, 180)]
     [TestCase(-180, 90)]
     [TestCase(-60, 180)]

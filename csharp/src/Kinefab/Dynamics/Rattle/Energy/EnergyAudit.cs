@@ -56,7 +56,8 @@ internal readonly struct EnergyAudit
             _terms += Math.Abs(work.X) + Math.Abs(work.Y) + Math.Abs(work.Z);
             _forced += mass * acceleration.LengthSquared * dt * dt / 2;
             _floor += TurningRounding * TurningTerms(a, o);
-            _floor += (mass + 1 / a[o + BodyLanes.LeastInverseInertia]) * speed * speed + mass * acceleration.Length * distance;
+            double inverse = a[o + BodyLanes.LeastInverseInertia];
+            _floor += (mass + (inverse > 0 ? 1 / inverse : 0)) * speed * speed + mass * acceleration.Length * distance;
         }
     }
 

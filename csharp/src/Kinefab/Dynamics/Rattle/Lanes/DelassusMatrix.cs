@@ -461,7 +461,8 @@ internal static class DelassusMatrix<V>
             Lane<V> least = batch.CompliantStep > 0 ? Lane<V>.Load(batch.Work.CompliantInertia, 0)
                 : batch.Shape.Loops == LoopConsistency.Exact ? LeastResponse(batch, block)
                 : Lane<V>.Splat(double.PositiveInfinity);
-            RegulariseLoops(batch, block, row, cell, least, angularShare, linearShare);
+            Lane<V> still = batch.Shape.LockedInertiaBodies.Length > 0 ? Lane<V>.Splat(LeastPart) * LeastResponse(batch, block) : Lane<V>.Splat(0);
+            RegulariseLoops(batch, block, row, cell, least, still, angularShare, linearShare);
         }
         else
         {
@@ -492,8 +493,9 @@ internal static class DelassusMatrix<V>
         return least;
     }
 
-    // Least is infinite where angular rows get their share of the whole diagonal.
-    private static void RegulariseLoops(LaneRecords<V> batch, RowBlock block, int row, int cell, Lane<V> least, double angularShare, double linearShare)
+    // Least is infinite where angular rows get their share of the whole diagonal. One about an axis about which its bodies do not turn has nothing but
+    // rounding there, and gets that of a response that is still one.
+    private static void RegulariseLoops(LaneRecords<V> batch, RowBlock block, int row, int cell, Lane<V> least, Lane<V> still, double angularShare, double linearShare)
     {
         double[] matrix = batch.Matrix;
         int w = Lane<V>.Width;
@@ -502,7 +504,7 @@ internal static class DelassusMatrix<V>
             bool isAngular = block.Classes[i] == RowClass.Angular;
             Lane<V> diagonal = Lane<V>.Load(matrix, cell);
             Lane<V> response = diagonal + Lane<V>.Load(batch.Work.HubResponse, row);
-            Lane<V> slow = !isAngular ? response : batch.CompliantStep > 0 ? least : Lane<V>.Min(response, Lane<V>.Max(least, Lane<V>.Splat(LeastPart) * response));
+            Lane<V> slow = !isAngular ? response : batch.CompliantStep > 0 ? least : Lane<V>.Max(still, Lane<V>.Min(response, Lane<V>.Max(least, Lane<V>.Splat(LeastPart) * response)));
             Lane<V> compliance = Lane<V>.Splat(isAngular ? angularShare : linearShare) * slow;
             compliance.Store(batch.Compliance, row);
             (diagonal + compliance).Store(matrix, cell);

@@ -169,7 +169,7 @@ public sealed class WorldConfigurableJoint : WorldJoint
         {
             double reached = Evaluate(i, _unwrapped[i], out double speed);
             bool isCounted = i == FirstAngle && Solved.HasCounted(_sign * reached);
-            double near = isCounted ? _sign * Solved.LastTwist : _unwrapped[i] + dt * ((1 - endShare) * _speeds[i] + endShare * speed);
+            double near = isCounted ? _sign * Solved.LastTwist : IsWithinHalfATurn((D6Joint)Solved, i - FirstAngle) ? 0 : _unwrapped[i] + dt * ((1 - endShare) * _speeds[i] + endShare * speed);
             _unwrapped[i] = SwingTwist.Nearest(reached, near);
             _speeds[i] = speed;
         }
@@ -184,6 +184,14 @@ public sealed class WorldConfigurableJoint : WorldJoint
         tape.Array(_goals);
         tape.Array(_turningGoals);
         tape.Array(_speeds);
+    }
+
+    // A swing between hard limits, into which no other turn mixes: however fast it is thrown about between them, it is never beyond half a turn.
+    private static bool IsWithinHalfATurn(D6Joint joint, int angle)
+    {
+        (AxisMotion own, AxisMotion other) = angle == 1 ? (joint.Swing1, joint.Swing2) : (joint.Swing2, joint.Swing1);
+        return angle > 0 && own == AxisMotion.Limited && (other == AxisMotion.Locked || joint.Twist == AxisMotion.Locked)
+            && !joint.SwingLimit.Response.IsSoft && !joint.IsBroken;
     }
 
     private static bool IsAngle(int axis) => axis >= (int)CoordinateAxis.AngularX;

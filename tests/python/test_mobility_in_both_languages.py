@@ -13,6 +13,7 @@ import numpy as np
 import pytest
 from golden import golden_pairs
 from kinefab.analysis import analyse
+from linkages import flat_ladder
 from random_mechanisms import mechanism
 
 TOOL = shutil.which("dotnet-kinefab")
@@ -316,6 +317,15 @@ def test_rods_that_hold_a_platform_spin(tmp_path):
     if TOOL is not None:
         kinefab.export(scene, tmp_path / "scene.kinefab")
         assert differences(counted(tmp_path)[0]) == []
+
+
+@needs_tool
+@pytest.mark.parametrize("rods", [4, 8, 10, 16])
+def test_a_flat_ladder_has_one_motion(tmp_path, rods):
+    """At its pose every rod but one has a velocity that goes nowhere, in parts of few freedoms and of many."""
+    kinefab.export(flat_ladder(rods), tmp_path / "scene.kinefab")
+    (said,) = counted(tmp_path)
+    assert (said["mobility"]["mobility"], differences(said)) == (1, [])
 
 
 @pytest.mark.parametrize("seed", [9, 19, 50, 92, 134])

@@ -11,7 +11,7 @@ namespace Kinefab.Kinematics;
 internal sealed class FineClosing
 {
     // Up to so many freedoms singular values are taken.
-    private const int Few = 64;
+    private const int Few = 20;
 
     // Singular values below this share of the largest take no part in a step.
     private const double Cut = 1e-10;

@@ -57,6 +57,50 @@ internal sealed class EventOrderTests
         return b.Build();
     });
 
+    /// <summary>A loop falls until its rocker's stop throws it back.</summary>
+    [Test]
+    public void FourBar_WhoseRockerBounces_IsOfSecondOrder() => AssertOrder(() =>
+    {
+        var b = new MechanismBuilder();
+        Vector3d crankEnd = new(0.1, 0.25, 0), rockerEnd = new(0.8, 0.5, 0), rocker = new(0.7, -0.1, 0);
+        int crank = b.Bar(Vector3d.Zero, crankEnd, 0.6);
+        int coupler = b.Bar(crankEnd, rockerEnd, 1.1);
+        int swing = b.Bar(rocker, rockerEnd, 0.8);
+        b.Hinge(JointModel.World, crank, Vector3d.Zero, Vector3d.UnitZ);
+        b.Hinge(crank, coupler, crankEnd, Vector3d.UnitZ);
+        b.Hinge(coupler, swing, rockerEnd, Vector3d.UnitZ);
+        RevoluteJoint stop = b.Hinge(JointModel.World, swing, rocker, Vector3d.UnitZ);
+        Limits(stop, -0.35, 0.3, new LimitResponse { Restitution = 0.6, BounceThreshold = 0.01 });
+        return b.Build();
+    });
+
+    /// <summary>A block on a rail, whose far stop throws back a pendulum that hangs on it.</summary>
+    [Test]
+    public void Slider_ThatRunsAgainstItsEnd_IsOfSecondOrder() => AssertOrder(() =>
+    {
+        var b = new MechanismBuilder();
+        int block = b.Bar(new Vector3d(-0.1, 0, 0), new Vector3d(0.1, 0, 0), 0.9);
+        int bob = b.Bar(Vector3d.Zero, new Vector3d(0.2, -0.5, 0), 0.7);
+        b.Change(block, d => d with { LinearVelocity = new Vector3d(0.9, 0, 0) });
+        b.Change(bob, d => d with { LinearVelocity = new Vector3d(0.9, 0, 0) });
+        D6Joint rail = b.Add(new D6Joint { X = AxisMotion.Limited }, JointModel.World, block, Vector3d.Zero, Vector3d.UnitX);
+        rail.LinearLimit = new LinearLimit { Value = 0.13, Response = new LimitResponse { Restitution = 0.8, BounceThreshold = 0.01 } };
+        b.Hinge(block, bob, Vector3d.Zero, Vector3d.UnitZ);
+        return b.Build();
+    });
+
+    /// <summary>A ball joint's pendulum swings out of its plane and bounces off its cone.</summary>
+    [Test]
+    public void Ball_ThatBouncesOffItsCone_IsOfSecondOrder() => AssertOrder(() =>
+    {
+        var b = new MechanismBuilder();
+        int bar = b.Bar(Vector3d.Zero, new Vector3d(0, -0.6, 0), 1.2);
+        b.Change(bar, d => d with { LinearVelocity = new Vector3d(0.9, 0, 0.5), AngularVelocity = new Vector3d(-0.5 / 0.3, 0, 0.9 / 0.3) });
+        D6Joint ball = b.Add(new D6Joint { Twist = AxisMotion.Free, Swing1 = AxisMotion.Limited, Swing2 = AxisMotion.Limited }, JointModel.World, bar, Vector3d.Zero, -Vector3d.UnitY);
+        ball.SwingLimit = new ConeLimit { Y = 0.35, Z = 0.5, Response = new LimitResponse { Restitution = 0.75, BounceThreshold = 0.01 } };
+        return b.Build();
+    });
+
     private static void AssertOrder(Func<MultibodySystem> make)
     {
         double[] exact = End(make(), Coarsest << (Halvings + 4));

@@ -60,7 +60,7 @@ internal sealed class RobustnessTests
         });
         TestContext.Progress.WriteLine($"{count} scenes: {stopped.Count} stop ({string.Join(' ', stopped)}), with a motion {string.Join(' ', moving)}");
         Assert.That(faults, Is.Empty);
-        Assert.That(moving, Has.Count.LessThanOrEqualTo(mostStops));
+        Assert.That(moving, Has.Count.LessThanOrEqualTo(mostStops), string.Join(" ", moving));
     }
 
     // Until it stops.

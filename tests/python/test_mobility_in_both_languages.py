@@ -114,6 +114,7 @@ APART_ONCE = {
     330848: (5, 5),
     338826: (5, 5),
     504242: (5, 5),
+    504498: (5, 0),  # an obstructed turn whose coupling takes a slide back along with it
     502350: (0, 0),
     90882: (5, 5),  # obstructed velocities mixed with motions, which do not come back onto the joints in one go
 }

@@ -31,6 +31,8 @@ CUT = 1e-8
 """Singular values below this fraction of the largest take no part in a step."""
 CURVATURE = 4.0
 """Of rows: most that a residual is beside its linearisation, over the square of the step; two unit lengths and angles make 1 or 2."""
+FINE_CUT = 1e-10
+"""The same of a cautious step: the fourth power of the way x leaves a singular value of x cubed."""
 FEW = 72
 """Largest number of unknowns for which a cautious step, which takes singular values, is worth its time."""
 DENSE = 180
@@ -284,7 +286,7 @@ def cautious_step(jacobian: Array, residual: Array) -> Array:
     o s = 0, a step that obeyed both would halve the motion s each time that it halves o.
     """
     u, s, vt = np.linalg.svd(jacobian, full_matrices=False)
-    along = np.einsum("mrk,mr->mk", u, residual) * (s > CUT * s[:, :1])
+    along = np.einsum("mrk,mr->mk", u, residual) * (s > FINE_CUT * s[:, :1])
     shares = np.divide(along, s, out=np.zeros_like(s), where=along != 0.0)
     left = np.cumsum(along[:, ::-1] ** 2, axis=1)[:, ::-1]  # before each direction, from the strongest on
     length = np.concatenate([np.zeros((len(s), 1)), np.cumsum(shares**2, axis=1)[:, :-1]], axis=1)

@@ -8,7 +8,7 @@ import kinefab
 import numpy as np
 import pytest
 from kinefab.analysis import analyse
-from kinefab.analysis.equations.solve import Solver
+from kinefab.analysis.equations.solve import Solver, cautious_step, minimum_norm
 from kinefab.analysis.findings.summary import scene_entry
 from kinefab.analysis.freedom.motion import walked
 from kinefab.model import ConstraintKind
@@ -199,3 +199,17 @@ def test_legs_that_only_spin_at_the_pose_move_all_the_same():
     found = analyse(scene)
     assert (found.first_order, found.mobility, found.redundant) == (6, 6, 0)
     assert len(found.joints) == 18
+
+
+def test_a_cautious_step_does_not_take_back_what_an_obstructed_velocity_is_multiplied_with():
+    """o o = 0 and o s = 0: every s is a solution beside o = 0, and steps that obey both rows halve s as often as o."""
+    for first in ((0.01, 0.01), (0.002, 0.03), (0.01, 0.004)):
+        left = {}
+        for step in (minimum_norm, cautious_step):
+            o, s = first
+            for _ in range(60):
+                jacobian, residual = np.array([[[2 * o, 0.0], [s, o]]]), np.array([[o * o, o * s]])
+                o, s = np.array((o, s)) - step(jacobian, residual)[0]
+            left[step] = abs(o), s
+        assert left[cautious_step][0] < 1e-7
+        assert left[cautious_step][1] > 0.5 * first[1]

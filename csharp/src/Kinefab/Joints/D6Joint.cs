@@ -84,12 +84,15 @@ internal sealed class D6Joint : JointModel
 
     /// <summary>
     /// The motion of X, Y or Z. Where the rows of all limits are asked for, Limited to a hard radius of nothing is Locked:
-    /// the direction of so small a distance would come and go, and with it the limit's row, which PhysX lets happen.
+    /// the direction of so small a distance would come and go, and with it the limit's row, which PhysX lets happen. To a soft one it is Free and
+    /// has a spring of its own, which together are the same spring, with a direction everywhere.
     /// </summary>
     public AxisMotion Linear(AxisMotion motion) =>
-        LimitsFromAfar && motion == AxisMotion.Limited && LinearLimit.Value <= LeastLimitedDistance && !LinearLimit.Response.IsSoft
-            ? AxisMotion.Locked
-            : motion;
+        !LimitsFromAfar || motion != AxisMotion.Limited || LinearLimit.Value > LeastLimitedDistance ? motion
+        : LinearLimit.Response.IsSoft ? AxisMotion.Free
+        : AxisMotion.Locked;
+
+    private bool IsSprung(AxisMotion motion) => motion == AxisMotion.Limited && Linear(motion) == AxisMotion.Free;
 
     /// <summary>The motion of either swing, Locked likewise where both are Limited to a hard cone without width.</summary>
     public AxisMotion Swing(AxisMotion motion) =>
@@ -103,7 +106,8 @@ internal sealed class D6Joint : JointModel
     {
         AxisMotion x = Linear(X), y = Linear(Y), z = Linear(Z), swing1 = Swing(Swing1), swing2 = Swing(Swing2);
         int locked = Bits(AxisMotion.Locked), limited = Bits(AxisMotion.Limited);
-        int linear = Count(DriveX.IsActive && x != AxisMotion.Locked) + Count(DriveY.IsActive && y != AxisMotion.Locked) + Count(DriveZ.IsActive && z != AxisMotion.Locked);
+        int linear = Count(DriveX.IsActive && x != AxisMotion.Locked) + Count(DriveY.IsActive && y != AxisMotion.Locked) + Count(DriveZ.IsActive && z != AxisMotion.Locked)
+            + Count(IsSprung(X)) + Count(IsSprung(Y)) + Count(IsSprung(Z));
         bool slerp = DriveSlerp.IsActive && Twist != AxisMotion.Locked && swing1 != AxisMotion.Locked && swing2 != AxisMotion.Locked;
         int angular = slerp ? 3
             : Count(DriveTwist.IsActive && Twist != AxisMotion.Locked) + Count(DriveSwing.IsActive && swing1 != AxisMotion.Locked)
@@ -153,6 +157,22 @@ internal sealed class D6Joint : JointModel
         if (DriveZ.IsActive && Linear(Z) != AxisMotion.Locked)
         {
             writer.LinearDrive(f.Axis0(2), -DriveLinearVelocity.Z, error.Z, DriveZ);
+        }
+
+        Vector3d p = f.Relative.Position;
+        if (IsSprung(X))
+        {
+            writer.Spring(f.Axis0(0), -p.X, LinearLimit.Response);
+        }
+
+        if (IsSprung(Y))
+        {
+            writer.Spring(f.Axis0(1), -p.Y, LinearLimit.Response);
+        }
+
+        if (IsSprung(Z))
+        {
+            writer.Spring(f.Axis0(2), -p.Z, LinearLimit.Response);
         }
     }
 

@@ -129,6 +129,13 @@ internal ref struct RowWriter
     public void LinearDrive(Vector3d axis, double velocityTarget, double error, in DriveModel drive) =>
         Drive(ref LinearRow(axis, _lever0, _lever1, error), velocityTarget, drive, Prescribed(drive));
 
+    /// <summary>The spring of a soft limit of no width, along a line through frame 1's origin: a drive to 0 whose force is the joint's.</summary>
+    public void Spring(Vector3d axis, double error, in LimitResponse response)
+    {
+        ref ConstraintRow row = ref LinearRow(axis, _lever0, _lever1, error, RowFlags.OutputForce);
+        Drive(ref row, 0, new DriveModel { Stiffness = response.Stiffness, Damping = response.Damping, ForceLimit = double.PositiveInfinity }, default);
+    }
+
     /// <summary>Spring-damper on the relative angular velocity along an axis.</summary>
     public void AngularDrive(Vector3d axis, double velocityTarget, double error, in DriveModel drive, SolveHint hint = SolveHint.None)
     {

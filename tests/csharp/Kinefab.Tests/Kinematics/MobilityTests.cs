@@ -218,6 +218,22 @@ public class MobilityTests
         Assert.That((report.FirstOrder, report.Mobility, report.Idle.Count), Is.EqualTo((4, 0, 0)));
     }
 
+    // A pin slides in a slot that its hinge can turn out of the way: the slide is a motion, and the turn is obstructed by its fourth power alone.
+    [Test]
+    public void Mobility_SlideBesideATurnThatIsObstructedLate_IsOneFreedom()
+    {
+        var scene = new MechanismScene();
+        int slotted = scene.Body("slotted", Vector3d.Zero);
+        int column = scene.Body("column", new Vector3d(1, 2, 0));
+        int arm = scene.Body("arm", new Vector3d(0, 2, 2));
+        scene.Hinge(slotted, null, new Vector3d(1, 1, 1), Vector3d.UnitX);
+        scene.Configurable(column, null, new Vector3d(1, 2, 0), Vector3d.UnitZ, Vector3d.UnitX, "FLLFLL");
+        scene.Hinge(arm, column, new Vector3d(0, 2, 2), Vector3d.UnitZ);
+        scene.Configurable(slotted, arm, new Vector3d(1, 0, 1), Vector3d.UnitX, Vector3d.UnitZ, "LFLFLL", closure: true);
+        MobilityReport report = MobilityAnalysis.Of(scene.Mechanism());
+        Assert.That((report.FirstOrder, report.Mobility), Is.EqualTo((2, 1)));
+    }
+
     // All joints in one point but for the file's rounding: its 1e-13 m are no length of a link.
     [Test]
     public void Mobility_JointsInOnePoint_RoundingIsNoLinkLength()

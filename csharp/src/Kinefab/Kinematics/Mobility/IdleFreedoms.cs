@@ -212,7 +212,7 @@ internal sealed class IdleFreedoms
             return loop.Finite;
         }
 
-        IReadOnlyList<double[]> motions = loop.Motions(cancellation);
+        IReadOnlyList<double[]> motions = loop.Motions;
         var moved = new double[Width * nodes.Count, motions.Count];
         for (int m = 0; m < motions.Count; m++)
         {
@@ -362,7 +362,7 @@ internal sealed class IdleFreedoms
             return one.Finite == 0 ? new List<double[]>() : twists;
         }
 
-        IReadOnlyList<double[]> motions = one.Motions(cancellation);
+        IReadOnlyList<double[]> motions = one.Motions;
         int body = one.Part.IndexOf(_graph.Members[nodes[0]][0]);
         var along = new double[motions.Count, twists.Count];
         for (int m = 0; m < motions.Count; m++)

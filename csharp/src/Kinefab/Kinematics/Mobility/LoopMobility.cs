@@ -10,9 +10,6 @@ internal sealed class LoopMobility
     // Length of a row, of about 1 at the start, that has to be left beside the rows before it for it to count.
     private const double IndependentRow = 1e-6;
 
-    private readonly MechanismState _state;
-    private readonly FiniteMobility _finite;
-
     /// <summary>Of a part, by itself.</summary>
     /// <param name="part">Which.</param>
     /// <param name="closed">The mechanism's exported pose, closed as well as it can be.</param>
@@ -21,22 +18,19 @@ internal sealed class LoopMobility
     {
         Part = part;
         var newton = new NewtonSolver(part.Linkage, cancellation);
-        MechanismState state = _state = part.StateOf(closed);
-        newton.Motion.Start(state.Poses);
-        newton.Assemble(state);
-        newton.Accepted = Math.Max(newton.Accepted, 4 * newton.Equations.Worst);
+        MechanismState state = part.StateOf(closed);
+        var closing = new FineClosing(part.Linkage, newton, state);
         var blocks = new FreedomBlocks(part.Linkage, newton.Firsts, newton.Motion.Linear.Length);
         Here = new VelocitySpace(part.Linkage, newton, blocks, state);
         Rank = newton.Motion.Linear.Length - Here.Freedoms;
-        _finite = new FiniteMobility(part.Linkage, newton, blocks);
-        if (NoisyRows.Keep(newton, Here, state))
+        Motions = Here.Basis;
+        (Finite, AtGeneralPose) = (Here.Freedoms, Here.Freedoms);
+        if (!NoisyRows.Keep(newton, Here, state))
         {
-            (Finite, AtGeneralPose) = (Here.Freedoms, Here.Freedoms);
-            return;
+            var finite = new FiniteMobility(part.Linkage, newton, blocks, closing, Here, state, cancellation);
+            (Finite, AtGeneralPose) = (finite.Freedoms, finite.AtGeneralPose);
+            Motions = Finite < FirstOrder ? finite.Motions : Motions;
         }
-
-        Finite = _finite.Count(state, cancellation);
-        AtGeneralPose = _finite.AtGeneralPose;
     }
 
     public IndependentLinkage Part { get; }
@@ -59,8 +53,7 @@ internal sealed class LoopMobility
     /// <summary>
     /// The velocities at the exported pose that lead into the finite motions; where others do not, known to the curvature of a trial step.
     /// </summary>
-    public IReadOnlyList<double[]> Motions(CancellationToken cancellation) =>
-        Finite >= FirstOrder ? Here.Basis : _finite.Kept(Here, _state, Finite, cancellation);
+    public IReadOnlyList<double[]> Motions { get; }
 
     /// <summary>
     /// Notes for each closing joint, by the mechanism's index, how many rows repeat others: nothing of such a row is left beside

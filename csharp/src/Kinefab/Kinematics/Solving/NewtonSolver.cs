@@ -252,13 +252,18 @@ internal sealed class NewtonSolver
         }
     }
 
-    private bool Finish(MechanismState state)
+    /// <summary>Brings a state's coordinates up to date with its poses.</summary>
+    public void ReadValues(MechanismState state)
     {
         for (int i = 0; i < state.Values.Length; i++)
         {
             Equations.Evaluate(i, state.Poses, state.Values, out _);
         }
+    }
 
+    private bool Finish(MechanismState state)
+    {
+        ReadValues(state);
         return true;
     }
 

@@ -72,6 +72,11 @@ internal sealed class VelocitySpace
     /// <summary>Number of independent velocities.</summary>
     public int Freedoms => _basis.Count;
 
+    /// <summary>Of a direction in a mixture, between -1 and 1, the same on every machine.</summary>
+    /// <param name="direction">By its place.</param>
+    /// <param name="round">Another mixture for each.</param>
+    public static double Weight(int direction, int round) => Trigonometry.Sin(12.9898 * (direction + 1) + 4.1414 * round);
+
     /// <summary>A step along a mixture of all velocities, the same on every machine; zero where there are none.</summary>
     /// <param name="round">Another mixture for each.</param>
     /// <param name="length">Of its largest entry, radians or lengths.</param>
@@ -80,7 +85,7 @@ internal sealed class VelocitySpace
         var step = new double[Linear.Length];
         for (int k = 0; k < _basis.Count; k++)
         {
-            double weight = Trigonometry.Sin(12.9898 * (k + 1) + 4.1414 * round);
+            double weight = Weight(k, round);
             for (int i = 0; i < step.Length; i++)
             {
                 step[i] += weight * _basis[k][i];

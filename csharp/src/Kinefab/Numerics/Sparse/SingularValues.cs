@@ -1,4 +1,5 @@
 using System;
+using System.Collections.Generic;
 
 namespace Kinefab.Numerics;
 
@@ -52,6 +53,21 @@ internal sealed class SingularValues
                 _vectors[i, k] = v[order[k]][i];
             }
         }
+    }
+
+    /// <summary>Of columns, which are kept; all as long.</summary>
+    public static SingularValues OfColumns(IReadOnlyList<double[]> columns)
+    {
+        var matrix = new double[columns.Count == 0 ? 0 : columns[0].Length, columns.Count];
+        for (int j = 0; j < columns.Count; j++)
+        {
+            for (int i = 0; i < columns[j].Length; i++)
+            {
+                matrix[i, j] = columns[j][i];
+            }
+        }
+
+        return new SingularValues(matrix);
     }
 
     /// <summary>One for each column, falling.</summary>

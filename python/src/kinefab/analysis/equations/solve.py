@@ -29,6 +29,10 @@ STALLED = 0.9
 """A part whose residual shrinks by less than this factor three times running has met its floor."""
 CUT = 1e-8
 """Singular values below this fraction of the largest take no part in a step."""
+CURVATURE = 4.0
+"""Of rows: most that a residual is beside its linearisation, over the square of the step; two unit lengths and angles make 1 or 2."""
+FEW = 72
+"""Largest number of unknowns for which a cautious step, which takes singular values, is worth its time."""
 DENSE = 180
 """Largest number of unknowns solved densely."""
 DAMPING = 1e-14
@@ -50,10 +54,12 @@ class Solver:
     """The independent parts of a system, ready to be solved many times.
 
     part: shape (bodies,), the part a body belongs to, -1 for body 0 and for bodies without rows.
+    cautious: closes poses by ``cautious_step``, where the parts are small.
     """
 
-    def __init__(self, system: System):
+    def __init__(self, system: System, *, cautious: bool = False):
         self.system = system
+        self.cautious = cautious
         n = system.bodies
         # What a row counts from inside of one body stands still, and ties that body to nothing.
         self._still = (system.body_a == system.body_b) & system.joining()[system.row]
@@ -238,7 +244,8 @@ class Solver:
                 jacobian = self.jacobians(group, block_a, block_b)[take]
                 # a steep coupling's row would hide what the others tell beside it
                 size = np.maximum(1.0, np.linalg.norm(jacobian, axis=2))
-                step = -minimum_norm(jacobian / size[..., None], residual[group.rows[take]] / size)
+                step = cautious_step if self.cautious and jacobian.shape[2] <= FEW else minimum_norm
+                step = -step(jacobian / size[..., None], residual[group.rows[take]] / size)
             step = step.reshape(len(step), -1, 6) * damp[group.members[take]][:, None, None]
             largest = np.abs(step).max(axis=(1, 2), initial=0.0)
             step *= np.minimum(1.0, LARGEST_STEP / np.maximum(largest, 1e-300))[:, None, None]
@@ -268,6 +275,20 @@ def minimum_norm(jacobian: Array, residual: Array) -> Array:
     kept = s > CUT * s[:, :1]
     inverse = np.divide(1.0, s, out=np.zeros_like(s), where=kept)
     return np.einsum("mkn,mk->mn", vt, inverse * np.einsum("mrk,mr->mk", u, residual))
+
+
+def cautious_step(jacobian: Array, residual: Array) -> Array:
+    """As ``minimum_norm``, but only as long as it has to be for the residual to become what the step's own curvature may leave.
+
+    The weakest rows ask for the longest steps, and nothing of them is known before the others are closed: where o o = 0 and
+    o s = 0, a step that obeyed both would halve the motion s each time that it halves o.
+    """
+    u, s, vt = np.linalg.svd(jacobian, full_matrices=False)
+    along = np.einsum("mrk,mr->mk", u, residual) * (s > CUT * s[:, :1])
+    shares = np.divide(along, s, out=np.zeros_like(s), where=along != 0.0)
+    left = np.cumsum(along[:, ::-1] ** 2, axis=1)[:, ::-1]  # before each direction, from the strongest on
+    length = np.concatenate([np.zeros((len(s), 1)), np.cumsum(shares**2, axis=1)[:, :-1]], axis=1)
+    return np.einsum("mkn,mk->mn", vt, shares * (left > (CURVATURE * length) ** 2))
 
 
 def _positions(part: IntArray, count: IntArray) -> tuple[IntArray, IntArray, IntArray]:

@@ -165,7 +165,7 @@ def walked(solver: Solver, part: int, first_order: BlockFreedom, start: State, s
 
 def _searched(solver: Solver, part: int, first_order: BlockFreedom) -> FiniteFreedom:
     """Walk away from the start pose, then try every direction of the null space there."""
-    solver, part = Solver(solver.alone(part)), 0
+    solver, part = Solver(solver.alone(part), cautious=True), 0
     first_order = replace(first_order, bodies=np.arange(1, solver.system.bodies))
     start = solver.system.start()
     away = walked(solver, part, first_order, start)

@@ -196,7 +196,7 @@ internal sealed partial class ActiveSet<V>
         for (int i = _scalars.First(block); i < end; i++)
         {
             ref ScalarRow scalar = ref _rows[i];
-            if (scalar.IsActive && scalar.Built.Has(RowFlags.Limit))
+            if (scalar.IsActive && scalar.Built.Has(RowFlags.OutputForce))
             {
                 linear += scalar.Built.Linear0 * _batch.Work.TotalImpulses[scalar.Index];
                 angular += scalar.Built.Angular0 * _batch.Work.TotalImpulses[scalar.Index];

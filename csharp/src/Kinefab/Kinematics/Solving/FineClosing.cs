@@ -1,0 +1,195 @@
+using System;
+using Kinefab.Numerics;
+
+namespace Kinefab.Kinematics;
+
+/// <summary>
+/// Brings states of one linkage that are near by onto its joints, to rounding even where velocities are obstructed. What the fourth power of
+/// the way x obstructs has a singular value of x cubed, and the damping of NewtonSolver's normal equations hides all below 3e-5; here steps
+/// are taken by singular values, where the freedoms are few enough for that.
+/// </summary>
+internal sealed class FineClosing
+{
+    // Up to so many freedoms singular values are taken.
+    private const int Few = 20;
+
+    // Singular values below this share of the largest take no part in a step.
+    private const double Cut = 1e-10;
+
+    // Error that is rounding. Times what a state is closed to up to which another came back onto the joints beyond doubt, and beyond which
+    // it got stuck: what is closed to a rounding of the file here may be closed to many there.
+    private const double Rounding = 1e-14;
+    private const double Beside = 10;
+    private const double Stuck = 1e4;
+    private const double LargestStep = 0.3;
+
+    // Of rows: most that an error is beside its linearisation, over the square of the step; lengths and angles of 1 make 1 or 2.
+    private const double Curvature = 4;
+    private const int MaxIterations = 60;
+
+    // A step that makes the error this many times as large is taken back and halved, down to the least share of it.
+    private const double Worse = 2;
+    private const double LeastShare = 1e-3;
+
+    // An error that shrinks by less than this so many times has met its floor; steps that were cut get more of them.
+    private const double Stalled = 0.9;
+    private const int MostStalled = 3;
+    private const int MostStalledCut = 11;
+
+    private readonly NewtonSolver _newton;
+    private readonly Pose[] _before;
+    private double _goal = Rounding;
+
+    /// <summary>Of a solver's linkage, closing a state of it first: what that cannot be closed to, no other is asked for.</summary>
+    public FineClosing(Linkage linkage, NewtonSolver newton, MechanismState state)
+    {
+        _newton = newton;
+        _before = new Pose[linkage.BodyCount];
+        Closing = new double[newton.Motion.Linear.Length];
+        Close(state);
+        _goal = Math.Max(Rounding, 2 * Worst);
+        newton.Accepted = Math.Max(newton.Accepted, 4 * Worst);
+    }
+
+    /// <summary>Sum of the steps of the last Close.</summary>
+    public double[] Closing { get; }
+
+    /// <summary>Worst error that the last Close left, in the mechanism's lengths or radians.</summary>
+    public double Worst { get; private set; }
+
+    /// <summary>Whether the last Close came back onto the joints beyond doubt.</summary>
+    public bool IsExact => IsFew ? Worst <= Beside * _goal : Worst <= _newton.Accepted;
+
+    /// <summary>Whether the last Close may have led to a pose of the mechanism.</summary>
+    public bool IsClosed => Worst <= (IsFew ? Stuck * _goal : _newton.Accepted);
+
+    private bool IsFew => Closing.Length <= Few;
+
+    /// <summary>Brings a state onto the joints as near as it goes; whether that may be a pose of them.</summary>
+    public bool Close(MechanismState state)
+    {
+        _newton.ClearDriven();
+        if (IsFew)
+        {
+            Iterate(state);
+        }
+        else
+        {
+            _newton.Close(state);
+            _newton.Closing.CopyTo(Closing, 0);
+            Worst = _newton.Equations.Worst;
+        }
+
+        return IsClosed;
+    }
+
+    private void Iterate(MechanismState state)
+    {
+        Array.Clear(Closing, 0, Closing.Length);
+        _newton.Motion.Start(state.Poses);
+        PackedRows rows = _newton.Rows(state);
+        Worst = _newton.Equations.Worst;
+        double share = 1;
+        int stalled = 0;
+        for (int n = 0; n < MaxIterations && Worst > _goal && stalled < (share < 1 ? MostStalledCut : MostStalled); n++)
+        {
+            _newton.Cancellation.ThrowIfCancellationRequested();
+            double[] step = Step(rows, share);
+            Array.Copy(state.Poses, _before, _before.Length);
+            _newton.Motion.Move(state.Poses, step);
+            PackedRows there = _newton.Rows(state);
+            double now = _newton.Equations.Worst;
+            if (now > Worse * Worst && share > LeastShare)
+            {
+                Array.Copy(_before, state.Poses, _before.Length);
+                _newton.Motion.Start(state.Poses);
+                share /= 2;
+                stalled++;
+                continue;
+            }
+
+            share = Math.Min(1, 2 * share);
+            stalled = now > Stalled * Worst ? stalled + 1 : 0;
+            for (int i = 0; i < step.Length; i++)
+            {
+                Closing[i] += step[i];
+            }
+
+            (rows, Worst) = (there, now);
+        }
+
+        _newton.ReadValues(state);
+    }
+
+    // A share of the least step after which the rows miss 0 by no more than its own curvature may make of it, no longer than the largest.
+    // The weakest rows ask for the longest steps, and nothing of them is known before the others are closed: where o o = 0 and o s = 0, a
+    // step that obeyed both would halve the motion s each time that it halves o.
+    private double[] Step(PackedRows rows, double share)
+    {
+        double[,] matrix = rows.Matrix(Closing.Length);
+        var errors = new double[rows.Count];
+        for (int r = 0; r < errors.Length; r++)
+        {
+            // A steep coupling's row would hide what the others tell beside it.
+            double size = Math.Max(1, DenseVector.Length(rows.Row(r)));
+            errors[r] = rows.Errors[r] / size;
+            for (int i = 0; i < Closing.Length; i++)
+            {
+                matrix[r, i] /= size;
+            }
+        }
+
+        var values = new SingularValues((double[,])matrix.Clone());
+        double[] along = Along(values, matrix, errors);
+        var step = new double[Closing.Length];
+        double left = DenseVector.Dot(along, along);
+        double squares = 0;
+        for (int k = 0; k < along.Length && left > Curvature * squares * (Curvature * squares); k++)
+        {
+            double size = along[k] / values.Values[k];
+            squares += size * size;
+            left -= along[k] * along[k];
+            for (int i = 0; i < step.Length; i++)
+            {
+                step[i] -= share * size * values.Vector(i, k);
+            }
+        }
+
+        double largest = 0;
+        foreach (double entry in step)
+        {
+            largest = Math.Max(largest, Math.Abs(entry));
+        }
+
+        if (largest > LargestStep)
+        {
+            DenseVector.Divide(step, largest / LargestStep);
+        }
+
+        return step;
+    }
+
+    // The errors along the left singular vectors that count.
+    private static double[] Along(SingularValues values, double[,] matrix, double[] errors)
+    {
+        int columns = values.Values.Length;
+        var along = new double[columns == 0 ? 0 : values.Rank(Cut * values.Values[0])];
+        for (int k = 0; k < along.Length; k++)
+        {
+            for (int r = 0; r < errors.Length; r++)
+            {
+                double rate = 0;
+                for (int i = 0; i < columns; i++)
+                {
+                    rate += matrix[r, i] * values.Vector(i, k);
+                }
+
+                along[k] += rate * errors[r];
+            }
+
+            along[k] /= values.Values[k];
+        }
+
+        return along;
+    }
+}

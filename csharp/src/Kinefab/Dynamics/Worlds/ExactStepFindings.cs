@@ -16,6 +16,9 @@ internal sealed class ExactStepFindings
     /// <summary>Findings of a code in a run; more of them say no more.</summary>
     public const int Most = 10;
 
+    // More is no gap of a machine but a search that came apart, m or rad.
+    private const double MostOpen = 1e6;
+
     private readonly HashSet<(string Code, string Place)> _places = new();
 
     /// <summary>Which findings were said already.</summary>
@@ -99,7 +102,7 @@ internal sealed class ExactStepFindings
 
     private static string Reason(in UnsolvedStep step) =>
         step.Joint == null ? "its energy would grow from nothing"
-        : double.IsInfinity(step.Error) ? "it comes apart beyond all numbers"
+        : step.Error > MostOpen ? "it comes apart beyond all numbers"
         : FormattableString.Invariant($"it stays open by {step.Error:0.0e+0} {(step.IsAngular ? "rad" : "m")}");
 
     // Only what is the case.

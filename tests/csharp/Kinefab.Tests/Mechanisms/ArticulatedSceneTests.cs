@@ -9,6 +9,7 @@ using Kinefab.Document;
 using Kinefab.Mechanisms;
 using Kinefab.Numerics;
 using Kinefab.Tests.Conformance;
+using Kinefab.Tests.Dynamics.Rattle;
 using Kinefab.Validation;
 using NUnit.Framework;
 
@@ -22,6 +23,26 @@ public sealed class ArticulatedSceneTests
 
     // KINEFAB_ARTICULATIONS sets another number of random machines.
     private static readonly string Machines = Environment.GetEnvironmentVariable("KINEFAB_ARTICULATIONS") ?? "60";
+
+    // Counted in bytes, since each id that was tried is a text: they grow as the joints do.
+    [Test]
+    public void Of_ManyJointsWithoutIdsBetweenOnePair_GivesEachHelperANumberAtACostByTheJoints()
+    {
+        ValidScene?[] made = new ValidScene?[3];
+        long[] bytes = new long[3];
+        for (int i = 0; i < 3; i++)
+        {
+            // The first warms up.
+            ValidScene scene = SceneValidator.Validate(HubScenes.Pair(i == 2 ? 2_000 : 500)).Scene!;
+            long before = GC.GetAllocatedBytesForCurrentThread();
+            made[i] = ArticulatedScene.Of(scene, out _);
+            bytes[i] = GC.GetAllocatedBytesForCurrentThread() - before;
+        }
+
+        string[] ids = made[1]!.Document.GameObjects.Select(each => each.Id).Where(id => id.StartsWith("kinefab:helper", StringComparison.Ordinal)).ToArray();
+        Assert.That(ids, Is.EqualTo(Enumerable.Range(1, 498).Select(n => n == 1 ? "kinefab:helper b1" : $"kinefab:helper b1#{n}")));
+        Assert.That(bytes[2], Is.LessThan(5 * bytes[1]));
+    }
 
     [Test]
     public void Of_FixturesAndRandomMachines_IsTheSceneExportedWithLinks()

@@ -69,11 +69,10 @@ public static class ArticulatedScene
                 moved[inner] = new JointCoordinate { GameObject = branch.Child, Component = own.IndexOf(link) };
         }
 
-        var ids = new HashSet<string>(StringComparer.Ordinal);
-        foreach (GameObject gameObject in objects)
-            ids.Add(gameObject.Id);
+        var ids = new FreeIds(objects);
         foreach (JointPlace closing in tree.Closing)
         {
+            cancellation.ThrowIfCancellationRequested();
             moved[closing] = new JointCoordinate { GameObject = objects.Count, Component = 2 };
             objects.Add(Helper(tree, closing, components[closing.GameObject], poses, ids, findings));
         }
@@ -171,7 +170,7 @@ public static class ArticulatedScene
     }
 
     // The joint on a body of its own, which is fixed to the link that had it.
-    private static GameObject Helper(LinkTree tree, JointPlace closing, List<Component> components, LinkPoses poses, HashSet<string> ids, List<Diagnostic> findings)
+    private static GameObject Helper(LinkTree tree, JointPlace closing, List<Component> components, LinkPoses poses, FreeIds ids, List<Diagnostic> findings)
     {
         var link = (ArticulationBody)components.Find(component => component is ArticulationBody)!;
         Joint joint = tree.Joint(closing);
@@ -184,13 +183,10 @@ public static class ArticulatedScene
             InertiaTensorRotation = link.InertiaTensorRotation,
             UseGravity = false,
         };
-        string own = $"kinefab:helper {tree.NameOf(closing)}", free = own;
-        for (int count = 2; !ids.Add(free); count++)
-            free = $"{own}#{count.ToString(CultureInfo.InvariantCulture)}";
         findings.Add(Diagnostic.Of(DiagnosticCodes.ArticulationLoopHelper, closing.Pointer, ("joint", name), ("object", $"{name} closure")));
         return new GameObject
         {
-            Id = free,
+            Id = ids.Take($"kinefab:helper {tree.NameOf(closing)}"),
             Name = $"{name} closure",
             Transform = LinkPoses.Place(poses[closing.GameObject]),
             Components = new Component[] { body, new FixedJoint { ConnectedBody = closing.GameObject, Id = $"{id} helper" }, joint with { ConnectedBody = tree.Other(closing) } },

@@ -115,6 +115,15 @@ public sealed class CancellationTests
         Assert.That(solver.Close(Open(mechanism)).Converged, Is.True);
     }
 
+    // What each of many bodies can do is worked out after the last block is told as done.
+    [Test]
+    public void CountMobility_CancelledAfterTheBlocks_Ends()
+    {
+        using var source = new CancellationTokenSource();
+        Mechanism mechanism = Mechanism.Create(SceneValidator.Validate(HubScenes.Star(3)).Scene!);
+        Assert.That(() => mechanism.CountMobility(new CancelsAtTheEnd(source), source.Token), Throws.InstanceOf<OperationCanceledException>());
+    }
+
     [Test]
     public void Step_CancelledAnywhere_LeavesTheWorldAsItWas([Values] SolverKind solver, [Values("star", "pair", "comb", "grid")] string kind)
     {
@@ -177,5 +186,16 @@ public sealed class CancellationTests
         Pose pose = state.Pose(body);
         state.SetPose(body, new Pose(pose.Position, Quaterniond.AxisAngle(Vector3d.UnitZ, 0.1) * pose.Rotation));
         return state;
+    }
+
+    private sealed class CancelsAtTheEnd(CancellationTokenSource source) : IProgress<double>
+    {
+        public void Report(double value)
+        {
+            if (value == 1)
+            {
+                source.Cancel();
+            }
+        }
     }
 }

@@ -1,5 +1,6 @@
 using System;
 using System.Collections.Generic;
+using System.Threading;
 using Kinefab.Numerics;
 
 namespace Kinefab.Kinematics;
@@ -61,12 +62,14 @@ internal sealed class BodyTwists
     /// <param name="poses">These poses.</param>
     /// <param name="parts">Its blocks.</param>
     /// <param name="loops">Their velocities at these poses.</param>
-    public static List<BodyMobility> Of(Mechanism mechanism, NewtonSolver newton, Pose[] poses, IndependentLinkages parts, LoopMobility[] loops)
+    /// <param name="cancellation">Ends it early.</param>
+    public static List<BodyMobility> Of(Mechanism mechanism, NewtonSolver newton, Pose[] poses, IndependentLinkages parts, LoopMobility[] loops, CancellationToken cancellation)
     {
         var twists = new BodyTwists(mechanism.Linkage, newton, poses, parts, loops);
         var bodies = new List<BodyMobility>();
         foreach (int body in mechanism.Tree.Order)
         {
+            cancellation.ThrowIfCancellationRequested();
             int rank = twists.Rank(body, out int rotations);
             bodies.Add(new BodyMobility(mechanism.GameObjects[body], rank - rotations, rotations));
         }

@@ -56,7 +56,7 @@ public static class MobilityAnalysis
             redundantRows += island.Redundant;
         }
 
-        List<BodyMobility> bodies = BodyTwists.Of(mechanism, newton, state.Poses, parts, loops);
+        List<BodyMobility> bodies = BodyTwists.Of(mechanism, newton, state.Poses, parts, loops, cancellation);
         bodies.Sort((a, b) => a.GameObject.CompareTo(b.GameObject));
         int rows = 6 * mechanism.Tree.Order.Length - firstOrder + redundantRows;
         return new MobilityReport(mobility, firstOrder, general, rows, redundantRows, gap, inDoubt, islands, bodies, Named(mechanism, redundant), idle);

@@ -141,7 +141,7 @@ internal sealed class Substep
             _batch.ActiveSet.LocatesEvents = false;
         }
 
-        if (!_implicit.TrySolve(h, tolerance) || (_batch.ActiveSet != null && _batch.ActiveSet.HasMissedEvent(h, tolerance)))
+        if (!_implicit.TrySolve(h, tolerance) || IsLeftOpen(tolerance) || (_batch.ActiveSet != null && _batch.ActiveSet.HasMissedEvent(h, tolerance)))
         {
             return false;
         }
@@ -163,7 +163,7 @@ internal sealed class Substep
     // its angles are left open by, a later part, of another matrix, closes with the speed of that gap over its own length.
     private bool TryDriftFromPieceStart(double h, double tolerance)
     {
-        if (TryDrift(h, tolerance) && !(IsExact && _batch.Work.MaxError[0] > MostLeftOpen * tolerance))
+        if (TryDrift(h, tolerance) && !IsLeftOpen(tolerance))
         {
             return true;
         }
@@ -173,6 +173,8 @@ internal sealed class Substep
         _batch.Scalars?.ClearHistory();
         return TryDrift(h, tolerance, IsExact ? _exact : null);
     }
+
+    private bool IsLeftOpen(double tolerance) => IsExact && _batch.Work.MaxError[0] > MostLeftOpen * tolerance;
 
     // A loop that was rounded, held to the letter, is braked or stirred up.
     private bool IsExact => _batch.Shape.Loops == LoopConsistency.Exact;

@@ -79,6 +79,9 @@ internal sealed class Substep
         _length = h;
     }
 
+    /// <summary>Whether the last part of RATTLE's failed about the moment at which a limit is reached: shorter parts help there, and nowhere else in the step.</summary>
+    public bool HasFailedAtEvent { get; private set; }
+
     /// <summary>Pieces and parts that were tried since it was set to 0.</summary>
     public int Tries { get; set; }
 
@@ -86,6 +89,7 @@ internal sealed class Substep
     public bool TryRattle(double h, double tolerance)
     {
         Tries++;
+        HasFailedAtEvent = false;
         ActiveSet<ScalarLane>? scalars = _batch.ActiveSet;
         if (scalars == null)
         {
@@ -105,6 +109,7 @@ internal sealed class Substep
             _guessLength = _length;
             if (!TryDriftFromPieceStart(left, tolerance))
             {
+                HasFailedAtEvent = _converged[0] || blows > 0;
                 return false;
             }
 
@@ -118,6 +123,7 @@ internal sealed class Substep
             int first = scalars.FirstReached(left);
             if (first < 0 || !TryReach(left, passed, scalars.Row(first), tolerance, out double piece) || !Complete(piece, h, tolerance))
             {
+                HasFailedAtEvent = true;
                 return false;
             }
 

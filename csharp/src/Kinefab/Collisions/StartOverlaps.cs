@@ -45,7 +45,7 @@ public static class StartOverlaps
         var deepest = new Dictionary<(int A, int B), double>();
         long left = MostPoints;
         int unseen = 0;
-        foreach ((StandingCollider first, StandingCollider second, double tolerated) in Near(StandingCollider.Of(scene), pairs))
+        foreach ((StandingCollider first, StandingCollider second, double tolerated) in Near(StandingCollider.Of(scene), pairs, cancellation))
         {
             cancellation.ThrowIfCancellationRequested();
             left -= Cost(first, second);
@@ -72,27 +72,27 @@ public static class StartOverlaps
     }
 
     // Those that may collide and whose boxes overlap by more than is tolerated: what stands in a box moves no further to be free than the box itself.
-    private static IEnumerable<(StandingCollider First, StandingCollider Second, double Tolerated)> Near(List<StandingCollider> colliders, CollisionPairs pairs)
+    private static IEnumerable<(StandingCollider First, StandingCollider Second, double Tolerated)> Near(List<StandingCollider> colliders, CollisionPairs pairs, CancellationToken cancellation)
     {
         int[] order = Enumerable.Range(0, colliders.Count).OrderBy(i => colliders[i].Hull.Low.X).ToArray();
         var near = new List<(int First, int Second)>();
         for (int i = 0; i < order.Length; i++)
         {
-            for (int k = i + 1; k < order.Length && colliders[order[k]].Hull.Low.X <= colliders[order[i]].Hull.High.X; k++)
+            StandingCollider first = colliders[order[i]];
+            for (int k = i + 1; k < order.Length && colliders[order[k]].Hull.Low.X <= first.Hull.High.X; k++)
             {
-                if (Reach(colliders[order[i]].Hull, colliders[order[k]].Hull) > 0)
+                cancellation.ThrowIfCancellationRequested();
+                StandingCollider second = colliders[order[k]];
+                if (Reach(first.Hull, second.Hull) > Tolerated(first, second) && pairs.MayCollide(first.Owner, second.Owner))
                     near.Add(order[i] < order[k] ? (order[i], order[k]) : (order[k], order[i]));
             }
         }
 
         foreach ((int a, int b) in near.OrderBy(pair => pair))
-        {
-            (StandingCollider first, StandingCollider second) = (colliders[a], colliders[b]);
-            double tolerated = Math.Min(ContactOffset, Share * Math.Min(Size(first.Hull), Size(second.Hull)));
-            if (Reach(first.Hull, second.Hull) > tolerated && pairs.MayCollide(first.Owner, second.Owner))
-                yield return (first, second, tolerated);
-        }
+            yield return (colliders[a], colliders[b], Tolerated(colliders[a], colliders[b]));
     }
+
+    private static double Tolerated(StandingCollider first, StandingCollider second) => Math.Min(ContactOffset, Share * Math.Min(Size(first.Hull), Size(second.Hull)));
 
     private static double Depth(ConvexDepth depth, StandingCollider first, StandingCollider second, double tolerated)
     {

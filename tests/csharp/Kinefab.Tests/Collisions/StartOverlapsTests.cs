@@ -141,6 +141,11 @@ public sealed class StartOverlapsTests
     public void Of_Cancelled_Ends() => Assert.That(
         () => StartOverlaps.Of(Valid(Scene(Body("A", Cube), Body("B", Cube, 0.15))), new CancellationToken(true)), Throws.InstanceOf<OperationCanceledException>());
 
+    // One body's colliders give no pair to look at, however many there are.
+    [Test]
+    public void Of_OneBodysColliders_CancelledOnTheWayToThePairs_Ends() => Assert.That(
+        () => StartOverlaps.Of(Valid(Scene(Body("A", Cube), Child("B", 0, Cube))), new CancellationToken(true)), Throws.InstanceOf<OperationCanceledException>());
+
     private static string WithBalls(string text) =>
         text.Replace("\"components\":[", "\"components\":[{\"type\":\"SphereCollider\",\"radius\":0.15},", StringComparison.Ordinal);
 

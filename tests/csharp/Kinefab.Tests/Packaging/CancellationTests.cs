@@ -1,12 +1,15 @@
 using System;
 using System.Collections.Generic;
+using System.IO;
 using System.Linq;
 using System.Reflection;
 using System.Threading;
 using Kinefab.Advice;
+using Kinefab.Collisions;
 using Kinefab.Document;
 using Kinefab.Dynamics;
 using Kinefab.Kinematics;
+using Kinefab.Mechanisms;
 using Kinefab.Numerics;
 using Kinefab.Tests.Dynamics.Rattle;
 using Kinefab.Validation;
@@ -43,26 +46,67 @@ public sealed class CancellationTests
     }
 
     [Test]
-    public void CallsOnAWideGrid_CancelledOnTheWay_End()
+    public void EachPublicCallWithAToken_OnAWideGrid_EndsWhenCancelled()
     {
-        ValidScene scene = SceneValidator.Validate(HubScenes.Grid(20)).Scene!;
+        SceneDocument document = HubScenes.Grid(20);
+        using var written = new MemoryStream();
+        SceneFile.Save(document, written);
+        byte[] bytes = written.ToArray();
+        string path = Path.Combine(TestContext.CurrentContext.WorkDirectory, "cancelled.kinefab");
+        File.WriteAllBytes(path, bytes);
+        ValidScene scene = ValidScene.Load(bytes);
         Mechanism mechanism = Mechanism.Create(scene);
         var solver = new PositionSolver(mechanism);
-        int last = scene.Document.GameObjects.Count - 1;
+        var sweep = new Sweep(solver);
+        World world = World.Create(scene, SolverKind.Unity);
+        World exact = World.Create(scene, SolverKind.Exact);
+        string first = mechanism.Coordinates[0].Name;
+        int last = document.GameObjects.Count - 1;
+        string lastId = document.GameObjects[last].Id;
         var far = new Vector3d(30, -40, 0);
+
+        // By the name that the call has, once for each of its overloads.
         var calls = new (string Name, Action<CancellationToken> Call)[]
         {
-            ("World.Create unity", token => World.Create(scene, SolverKind.Unity, token)),
-            ("World.Create exact", token => World.Create(scene, SolverKind.Exact, token)),
-            ("PositionSolver", token => _ = new PositionSolver(mechanism, token)),
-            ("Close", token => solver.Close(Open(mechanism), token)),
-            ("Drag", token => solver.Drag(mechanism.NewState(), last, Vector3d.Zero, far, token)),
-            ("Branches", token => solver.Branches(mechanism.NewState(), 0, true, token)),
-            ("Step unity", token => World.Create(scene, SolverKind.Unity, CancellationToken.None).Step(0.02, token)),
-            ("Step exact", token => World.Create(scene, SolverKind.Exact, CancellationToken.None).Step(0.02, token)),
-            ("CountMobility", token => mechanism.CountMobility(null, token)),
+            ("SceneFile.Load", token => SceneFile.Load(path, null, token)),
+            ("SceneFile.Load", token => SceneFile.Load(new MemoryStream(bytes), ".", null, token)),
+            ("SceneFile.Load", token => SceneFile.Load(new MemoryStream(bytes), (Func<string, ReadOnlyMemory<byte>?>)(_ => null), null, token)),
+            ("SceneFile.Parse", token => SceneFile.Parse(bytes, null, null, token)),
+            ("SceneFile.Parse", token => SceneFile.Parse(bytes.AsSpan(), null, null, token)),
+            ("SceneValidator.Validate", token => SceneValidator.Validate(document, null, token)),
+            ("ValidScene.Load", token => ValidScene.Load(path, null, token)),
+            ("ValidScene.Load", token => ValidScene.Load(new MemoryStream(bytes), null, null, token)),
+            ("ValidScene.Load", token => ValidScene.Load(bytes, null, null, token)),
+            ("StartOverlaps.Of", token => StartOverlaps.Of(Boxes(), token)),
+            ("ArticulatedScene.Of", token => ArticulatedScene.Of(scene, out _, token)),
+            ("StabilityAdvice.Of", token => StabilityAdvice.Of(scene, null, token)),
+            ("Mechanism.Load", token => Mechanism.Load(path, null, token)),
+            ("Mechanism.CountMobility", token => mechanism.CountMobility(null, token)),
+            ("MobilityAnalysis.Of", token => MobilityAnalysis.Of(mechanism, null, token)),
+            ("Mechanism.ChooseFreedoms", token => mechanism.ChooseFreedoms(token)),
+            ("Mechanism.Sweep", token => mechanism.Sweep(first, 0, 1, 10, null, token)),
+            ("Sweep.Run", token => sweep.Run(mechanism.NewState(), 0, 0, 1, 10, null, token)),
+            ("Sweep.Range", token => sweep.Range(mechanism.NewState(), 0, token)),
+            ("PositionSolver..ctor", token => _ = new PositionSolver(mechanism, token)),
+            ("PositionSolver.Close", token => solver.Close(Open(mechanism), token)),
+            ("PositionSolver.Drag", token => solver.Drag(mechanism.NewState(), last, Vector3d.Zero, far, token)),
+            ("PositionSolver.Drag", token => solver.Drag(mechanism.NewState(), lastId, Vector3d.Zero, far, token)),
+            ("PositionSolver.Drive", token => solver.Drive(mechanism.NewState(), 0, 1, token)),
+            ("PositionSolver.Drive", token => solver.Drive(mechanism.NewState(), first, 1, token)),
+            ("PositionSolver.Drive", token => solver.Drive(mechanism.NewState(), new[] { new CoordinateTarget(0, 1) }, token)),
+            ("PositionSolver.Branches", token => solver.Branches(mechanism.NewState(), 0, true, token)),
+            ("World.Load", token => World.Load(path, SolverKind.Unity, null, token)),
+            ("World.Create", token => World.Create(scene, SolverKind.Unity, token)),
+            ("World.Step", token => world.Step(0.02, token)),
+            ("World.Run", token => world.Run(1, null, null, null, null, token)),
         };
-        foreach ((string name, Action<CancellationToken> call) in calls)
+        Assert.That(calls.Select(call => call.Name), Is.EquivalentTo(WithToken()));
+        var ofTheOtherSolver = new (string, Action<CancellationToken>)[]
+        {
+            ("World.Create exact", token => World.Create(scene, SolverKind.Exact, token)),
+            ("World.Step exact", token => exact.Step(0.02, token)),
+        };
+        foreach ((string name, Action<CancellationToken> call) in calls.Concat(ofTheOtherSolver))
         {
             Assert.That(() => call(new CancellationToken(true)), Throws.InstanceOf<OperationCanceledException>(), name);
         }
@@ -114,6 +158,17 @@ public sealed class CancellationTests
         var matrix = new double[pattern.Length];
         Assert.That(() => BlockCholesky<ScalarLane>.Factor(pattern, matrix, new CancellationToken(true)), Throws.InstanceOf<OperationCanceledException>());
     }
+
+    private static IEnumerable<string> WithToken() => typeof(World).Assembly.GetExportedTypes()
+        .SelectMany(type => type.GetMembers(BindingFlags.Public | BindingFlags.Instance | BindingFlags.Static | BindingFlags.DeclaredOnly))
+        .OfType<MethodBase>()
+        .Where(call => call.GetParameters().Any(p => p.ParameterType == typeof(CancellationToken)))
+        .Select(call => $"{call.DeclaringType!.Name}.{call.Name}");
+
+    private static ValidScene Boxes() => SceneValidator.Validate(new SceneDocument
+    {
+        GameObjects = Enumerable.Range(0, 2).Select(i => new GameObject { Id = $"b{i}", Name = $"b{i}", Components = [new Rigidbody(), new BoxCollider { Size = new Vector3d(1, 1, 1) }] }).ToArray(),
+    }).Scene!;
 
     private static MechanismState Open(Mechanism mechanism)
     {

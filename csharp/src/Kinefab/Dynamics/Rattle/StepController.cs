@@ -26,6 +26,9 @@ internal sealed class StepController
     // Failures in a step after which parts that fail are left to implicit Euler.
     private const int MaxFailures = 48;
 
+    // And after which a step that failed about an event is cut into even parts all the same.
+    private const int MaxEventFailures = 12;
+
     // Stops in a step after which the rest of it is not tried: the scene cannot be followed, and says so.
     private const int MaxDampedSteps = 8;
 
@@ -53,6 +56,8 @@ internal sealed class StepController
     private readonly Snapshot?[] _substepStarts = new Snapshot?[LastDepth + 1];
     private int _failures;
     private int _dampedInStep;
+    private bool _isTrial;
+    private bool _hasGivenUp;
     private bool _hasMoved;
     private int _worst;
     private double _worstError;
@@ -221,6 +226,7 @@ internal sealed class StepController
         _start.Save(_batch);
         Audit(dt);
         _dt = dt;
+        bool hasHalvedThere = false;
         bool hasLooked = _batch.ActiveSet != null && _batch.ActiveSet.HasHeld();
         if (hasLooked)
         {
@@ -245,6 +251,17 @@ internal sealed class StepController
                 CloseInitialState(isMoved);
                 _start.Save(_batch);
                 Audit(dt);
+            }
+
+            if (wasEager && !hasHalvedThere && _part.HasFailedAtEvent)
+            {
+                hasHalvedThere = true;
+                if (TryHalving(dt, halvings, tolerance))
+                {
+                    break;
+                }
+
+                Return(_start, dt);
             }
 
             if (halvings >= MostEven)
@@ -419,6 +436,24 @@ internal sealed class StepController
         return true;
     }
 
+    // Where an event alone is in the way, the step is halved there and nowhere else; false where that takes more than a few parts.
+    private bool TryHalving(double dt, int halvings, double tolerance)
+    {
+        _isTrial = true;
+        SubstepUntilSolved(dt, halvings, tolerance);
+        _isTrial = false;
+        if (!_hasGivenUp)
+        {
+            return true;
+        }
+
+        _hasGivenUp = false;
+        _hasMoved = false;
+        _failures = 0;
+        _elapsed = 0;
+        return false;
+    }
+
     private void SubstepUntilSolved(double dt, int halvings, double tolerance)
     {
         for (int i = 1 << halvings; i > 0; i--)
@@ -429,6 +464,12 @@ internal sealed class StepController
 
     private void Halve(double h, int depth, double tolerance)
     {
+        _hasGivenUp = _isTrial && (_hasGivenUp || _failures > MaxEventFailures);
+        if (_hasGivenUp)
+        {
+            return;
+        }
+
         Snapshot start = _substepStarts[depth] ??= new Snapshot(_batch);
         _part.SetLength(h);
         start.Save(_batch);
@@ -448,6 +489,12 @@ internal sealed class StepController
 
         if (isHopeless || !TryFallback(start, h, depth, tolerance))
         {
+            if (_isTrial)
+            {
+                _hasGivenUp = true;
+                return;
+            }
+
             if (!isHopeless && depth < LastDepth)
             {
                 HalveAgain(start, h, depth, tolerance);

@@ -79,6 +79,9 @@ internal sealed class Substep
         _length = h;
     }
 
+    /// <summary>Whether the last part of RATTLE's failed about the moment at which a limit is reached: shorter parts help there, and nowhere else in the step.</summary>
+    public bool HasFailedAtEvent { get; private set; }
+
     /// <summary>Pieces and parts that were tried since it was set to 0.</summary>
     public int Tries { get; set; }
 
@@ -86,6 +89,7 @@ internal sealed class Substep
     public bool TryRattle(double h, double tolerance)
     {
         Tries++;
+        HasFailedAtEvent = false;
         ActiveSet<ScalarLane>? scalars = _batch.ActiveSet;
         if (scalars == null)
         {
@@ -105,6 +109,7 @@ internal sealed class Substep
             _guessLength = _length;
             if (!TryDriftFromPieceStart(left, tolerance))
             {
+                HasFailedAtEvent = _converged[0] || blows > 0;
                 return false;
             }
 
@@ -118,6 +123,7 @@ internal sealed class Substep
             int first = scalars.FirstReached(left);
             if (first < 0 || !TryReach(left, passed, scalars.Row(first), tolerance, out double piece) || !Complete(piece, h, tolerance))
             {
+                HasFailedAtEvent = true;
                 return false;
             }
 
@@ -141,7 +147,7 @@ internal sealed class Substep
             _batch.ActiveSet.LocatesEvents = false;
         }
 
-        if (!_implicit.TrySolve(h, tolerance) || (_batch.ActiveSet != null && _batch.ActiveSet.HasMissedEvent(h, tolerance)))
+        if (!_implicit.TrySolve(h, tolerance) || IsLeftOpen(tolerance) || (_batch.ActiveSet != null && _batch.ActiveSet.HasMissedEvent(h, tolerance)))
         {
             return false;
         }
@@ -163,7 +169,7 @@ internal sealed class Substep
     // its angles are left open by, a later part, of another matrix, closes with the speed of that gap over its own length.
     private bool TryDriftFromPieceStart(double h, double tolerance)
     {
-        if (TryDrift(h, tolerance) && !(IsExact && _batch.Work.MaxError[0] > MostLeftOpen * tolerance))
+        if (TryDrift(h, tolerance) && !IsLeftOpen(tolerance))
         {
             return true;
         }
@@ -173,6 +179,8 @@ internal sealed class Substep
         _batch.Scalars?.ClearHistory();
         return TryDrift(h, tolerance, IsExact ? _exact : null);
     }
+
+    private bool IsLeftOpen(double tolerance) => IsExact && _batch.Work.MaxError[0] > MostLeftOpen * tolerance;
 
     // A loop that was rounded, held to the letter, is braked or stirred up.
     private bool IsExact => _batch.Shape.Loops == LoopConsistency.Exact;

@@ -162,6 +162,15 @@ internal struct ScalarRow
     public int BlockRow;
     public int Index;
 
+    /// <summary>
+    /// What acts before the drift of an impulse at its bound: half of it, as of all that is constant in a step, also where a spring is too stiff for the
+    /// midpoint rule.
+    /// </summary>
+    public readonly double BoundShare => Theta == 1 ? 1 : 0.5;
+
+    /// <summary>What acts before the drift of the impulse as the row stands.</summary>
+    public readonly double FirstShare => State == RowState.Free ? Theta : BoundShare;
+
     /// <summary>Whether a drive's force has no bound to a side.</summary>
     public readonly bool IsEndless => Math.Max(Built.Maximum, -Built.Minimum) > Endless;
 

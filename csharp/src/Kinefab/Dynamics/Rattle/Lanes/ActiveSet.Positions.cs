@@ -154,7 +154,7 @@ internal sealed partial class ActiveSet<V>
             {
                 isChanged |= ClampToBounds(ref scalar);
             }
-            else if (LeavesBound(scalar, scalar.Theta * scalar.Low, scalar.Theta * scalar.High, tolerance))
+            else if (LeavesBound(scalar, scalar.BoundShare * scalar.Low, scalar.BoundShare * scalar.High, tolerance))
             {
                 scalar.State = RowState.Free;
                 isChanged = true;
@@ -207,20 +207,21 @@ internal sealed partial class ActiveSet<V>
                 double ahead = scalar.End.GeometricError - scalar.EndError;
                 return (scalar.ImpulseFirstHalf >= high && ahead > tolerance) || (scalar.ImpulseFirstHalf <= low && ahead < -tolerance);
             default:
-                double wanted = scalar.Theta * (scalar.RestImpulse - scalar.ImplicitDamping * DriftSpeed(scalar));
-                double slack = scalar.Theta * scalar.ImplicitDamping * tolerance;
-                return (scalar.ImpulseFirstHalf >= high && wanted < high - slack) || (scalar.ImpulseFirstHalf <= low && wanted > low + slack);
+                double wanted = scalar.RestImpulse - scalar.ImplicitDamping * DriftSpeed(scalar);
+                double slack = scalar.ImplicitDamping * tolerance;
+                return (scalar.ImpulseFirstHalf >= high && wanted < scalar.High - slack) || (scalar.ImpulseFirstHalf <= low && wanted > scalar.Low + slack);
         }
     }
 
     private bool ClampToBounds(ref ScalarRow scalar)
     {
-        double impulse = Math.Min(scalar.Theta * scalar.High, Math.Max(scalar.Theta * scalar.Low, scalar.ImpulseFirstHalf));
-        if (impulse == scalar.ImpulseFirstHalf)
+        bool isAbove = scalar.ImpulseFirstHalf > scalar.Theta * scalar.High;
+        if (!isAbove && !(scalar.ImpulseFirstHalf < scalar.Theta * scalar.Low))
         {
             return false;
         }
 
+        double impulse = scalar.BoundShare * (isAbove ? scalar.High : scalar.Low);
         scalar.HasDrawn = scalar.Kind == RowKind.Limit;
         scalar.PendingImpulse = impulse - scalar.ImpulseFirstHalf;
         scalar.ImpulseFirstHalf = impulse;

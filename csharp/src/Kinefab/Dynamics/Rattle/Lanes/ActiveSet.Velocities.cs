@@ -27,7 +27,7 @@ internal sealed partial class ActiveSet<V>
             switch (scalar.Kind)
             {
                 case RowKind.Spring:
-                    SetImpulseSecondHalf(ref scalar, scalar.ImpulseFirstHalf * (1 - scalar.Theta) / scalar.Theta);
+                    SetImpulseSecondHalf(ref scalar, scalar.ImpulseFirstHalf * (1 - scalar.FirstShare) / scalar.FirstShare);
                     scalar.CorrectionSpeed = scalar.State == RowState.Free ? (scalar.RestImpulse - scalar.ImpulseFirstHalf / scalar.Theta) / scalar.ImplicitDamping : double.NaN;
                     scalar.State = RowState.AtBound;
                     break;

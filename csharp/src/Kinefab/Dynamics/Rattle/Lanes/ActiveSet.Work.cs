@@ -38,7 +38,7 @@ internal sealed partial class ActiveSet<V>
         for (int i = 0; i < _rows.Length; i++)
         {
             ref ScalarRow scalar = ref _rows[i];
-            scalar.Work += scalar.Kind == RowKind.Spring && !HasPotential(scalar) ? scalar.ImpulseFirstHalf / scalar.Theta * DriftSpeed(scalar) : 0;
+            scalar.Work += scalar.Kind == RowKind.Spring && !HasPotential(scalar) ? scalar.ImpulseFirstHalf / scalar.FirstShare * DriftSpeed(scalar) : 0;
         }
     }
 

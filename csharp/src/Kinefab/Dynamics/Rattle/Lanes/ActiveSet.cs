@@ -97,7 +97,7 @@ internal sealed partial class ActiveSet<V>
             if (scalar.Kind == RowKind.Spring)
             {
                 scalar.SetSpring(h, response, isImplicit);
-                _batch.VelocityImpulses[scalar.Index] = Math.Min(scalar.Theta * scalar.High, Math.Max(scalar.Theta * scalar.Low, scalar.ImpulseFirstHalf));
+                _batch.VelocityImpulses[scalar.Index] = GuessOf(scalar);
             }
             else
             {
@@ -109,7 +109,7 @@ internal sealed partial class ActiveSet<V>
             {
                 scalar.State = scalar.ImpulseFirstHalf > 0 || scalar.StartError < scalar.Allowed ? RowState.Free : RowState.AtBound;
             }
-            else if (scalar.ImpulseFirstHalf > scalar.Theta * scalar.Low && scalar.ImpulseFirstHalf < scalar.Theta * scalar.High)
+            else if (IsWithin(scalar, scalar.ImpulseFirstHalf))
             {
                 scalar.State = RowState.Free;
             }
@@ -317,6 +317,16 @@ internal sealed partial class ActiveSet<V>
 
         _scalars.IsFactored = true;
     }
+
+    // A spring's impulse before the drift as it was in the last step, where that was a bound's as it is of the bound now.
+    private static double GuessOf(in ScalarRow scalar)
+    {
+        double guess = scalar.ImpulseFirstHalf;
+        return IsWithin(scalar, guess) ? guess : scalar.BoundShare * (guess >= scalar.BoundShare * scalar.High ? scalar.High : scalar.Low);
+    }
+
+    private static bool IsWithin(in ScalarRow scalar, double impulse) =>
+        impulse > scalar.Theta * scalar.Low && impulse < scalar.Theta * scalar.High && impulse != scalar.BoundShare * scalar.Low && impulse != scalar.BoundShare * scalar.High;
 
     // So fast that a joint that comes back to its limit within the drift is thrown back once more; a slower one may as well rest there at its end.
     private static bool IsThrownBack(in ScalarRow scalar) => scalar.Built.Has(RowFlags.Restitution) && scalar.StartSpeed > scalar.Built.BounceThreshold;

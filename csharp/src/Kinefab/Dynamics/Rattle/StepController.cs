@@ -338,7 +338,8 @@ internal sealed class StepController
         var end = new EnergyAudit(_batch, _dt, _tolerance);
         if (end.IsClosed)
         {
-            LaneEnergy<ScalarLane>.Take(_batch, 0, ledger.Enter(end.GainSince(_energy), end.Moving, end.Kinetic, MayLose), end.Kinetic);
+            double takeable = LaneEnergy<ScalarLane>.Takeable(_batch, 0, end.Kinetic);
+            LaneEnergy<ScalarLane>.Take(_batch, 0, ledger.Enter(end.GainSince(_energy), end.Moving, takeable, MayLose), takeable);
         }
     }
 

@@ -39,10 +39,10 @@ internal struct EnergyLedger
     /// <summary>Takes down a step that was taken.</summary>
     /// <param name="gain">Energy that came of nothing in it, J.</param>
     /// <param name="moving">Energy that moves at its end, J.</param>
-    /// <param name="kinetic">The part of it that moves bodies, J.</param>
+    /// <param name="takeable">What speeds can give or take of it, see <see cref="LaneEnergy{V}.Takeable"/>, J.</param>
     /// <param name="mayLose">Whether something takes energy, as limits and dampers do.</param>
     /// <returns>What is to be taken from the speeds, or below 0 given to them, J.</returns>
-    public double Enter(double gain, double moving, double kinetic, bool mayLose)
+    public double Enter(double gain, double moving, double takeable, bool mayLose)
     {
         bool isExplained = mayLose || !Allows(gain, moving, false);
         _largest = Math.Max(_largest, moving);
@@ -52,12 +52,12 @@ internal struct EnergyLedger
         double surplus = 0;
         if (_least > room)
         {
-            surplus = Math.Min(_least - room, MostOfKinetic * kinetic);
+            surplus = Math.Min(_least - room, MostOfKinetic * takeable);
         }
         else if (_most < 0 && !isExplained)
         {
             double back = Math.Max(Math.Min(_taken, -_most), -_most - MostBelow * _largest);
-            surplus = -Math.Min(back, MostOfKinetic * kinetic);
+            surplus = -Math.Min(back, MostOfKinetic * takeable);
         }
 
         _taken = Math.Max(0, _taken + surplus);

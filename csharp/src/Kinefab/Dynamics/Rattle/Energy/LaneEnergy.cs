@@ -12,6 +12,9 @@ internal static class LaneEnergy<V>
     private const double EarlySteps = 2;
     private const double LeastTime = 1e-3;
 
+    // Of what moves, the part of a common motion that leaves nothing but rounding.
+    private const double Rounding = 1e-12;
+
     /// <summary>Kinetic energy where the rows were last built, J.</summary>
     public static Lane<V> Kinetic(LaneRecords<V> batch)
     {
@@ -78,20 +81,46 @@ internal static class LaneEnergy<V>
         return isKnown;
     }
 
+    /// <summary>What energy may be taken of, J: all that moves, or of an island that hangs on nothing what it has beyond its <see cref="CommonMotion"/>.</summary>
+    /// <param name="batch">Built at the end pose.</param>
+    /// <param name="lane">The island's.</param>
+    /// <param name="kinetic">What moves, J.</param>
+    public static double Takeable(LaneRecords<V> batch, int lane, double kinetic)
+    {
+        if (!batch.Shape.IsFloating)
+        {
+            return kinetic;
+        }
+
+        CommonMotion.Of(batch, lane, out double common);
+        return kinetic - common > Rounding * kinetic ? kinetic - common : 0;
+    }
+
     /// <summary>Takes as much of an energy from the speeds of a lane's bodies as they can give, or gives it to them.</summary>
     /// <param name="batch">The island is one of these.</param>
     /// <param name="lane">Its lane.</param>
     /// <param name="energy">What is to be taken, J.</param>
-    /// <param name="kinetic">What moves, J.</param>
-    public static void Take(LaneRecords<V> batch, int lane, double energy, double kinetic)
+    /// <param name="takeable">See <see cref="Takeable"/>, J.</param>
+    public static void Take(LaneRecords<V> batch, int lane, double energy, double takeable)
     {
-        if (energy == 0 || !(kinetic > 0))
+        if (energy == 0 || !(takeable > 0))
         {
             return;
         }
 
         int w = Lane<V>.Width;
-        double factor = Math.Sqrt(1 - Math.Min(EnergyLedger.MostOfKinetic, energy / kinetic));
+        double factor = Math.Sqrt(1 - Math.Min(EnergyLedger.MostOfKinetic, energy / takeable));
+        if (batch.Shape.IsFloating)
+        {
+            CommonMotion common = CommonMotion.Of(batch, lane, out _);
+            for (int body = 0; body < batch.Shape.MovingBodies; body++)
+            {
+                common.ScaleRest(batch, body, lane, factor);
+            }
+
+            return;
+        }
+
         for (int body = 0; body < batch.Shape.MovingBodies; body++)
         {
             // L follows V.

@@ -163,6 +163,9 @@ internal sealed class Island
     /// <summary>Whether a body of theirs moves as it is told.</summary>
     public bool HasKinematic { get; }
 
+    /// <summary>Whether nothing holds it from outside, so that its momentum is its own.</summary>
+    public bool IsFloating => Bodies.Length == MovingBodies && LockedInertiaBodies.Length == 0;
+
     // As many as hang up the bodies, and one.
     private int LeastWithLoop => MovingBodies + (Bodies.Length > MovingBodies ? 1 : 0);
 

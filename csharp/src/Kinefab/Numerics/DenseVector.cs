@@ -30,6 +30,27 @@ internal static class DenseVector
         }
     }
 
+    /// <summary>x + share y.</summary>
+    public static void Add(double[] x, double share, double[] y)
+    {
+        for (int i = 0; i < x.Length; i++)
+        {
+            x[i] += share * y[i];
+        }
+    }
+
+    /// <summary>The largest |x_i|; 0 of none.</summary>
+    public static double Largest(double[] x)
+    {
+        double largest = 0;
+        foreach (double entry in x)
+        {
+            largest = Math.Max(largest, Math.Abs(entry));
+        }
+
+        return largest;
+    }
+
     /// <summary>x / length.</summary>
     public static void Divide(double[] x, double length)
     {

@@ -227,8 +227,8 @@ internal sealed class LaneStep<V>
             // Where J v is not 0, no factor on all speeds may change them.
             if (!Batch.Shape.HasKinematic && (Batch.Axes == null || !Batch.Axes.HasMotor(lane)))
             {
-                double takeable = LaneEnergy<V>.Takeable(Batch, lane, Batch.Work.Kinetic[lane]);
-                LaneEnergy<V>.Take(Batch, lane, ledger.Enter(gain, moving, takeable, mayLose), takeable);
+                double takeable = LaneEnergy<V>.Takeable(Batch, lane, Batch.Work.Kinetic[lane], out CommonMotion common);
+                LaneEnergy<V>.Take(Batch, lane, ledger.Enter(gain, moving, takeable, mayLose), takeable, common);
             }
 
             return;

@@ -110,11 +110,7 @@ internal sealed class FineClosing
 
             share = Math.Min(1, 2 * share);
             stalled = now > Stalled * Worst ? stalled + 1 : 0;
-            for (int i = 0; i < step.Length; i++)
-            {
-                Closing[i] += step[i];
-            }
-
+            DenseVector.Add(Closing, 1, step);
             (rows, Worst) = (there, now);
         }
 
@@ -155,12 +151,7 @@ internal sealed class FineClosing
             }
         }
 
-        double largest = 0;
-        foreach (double entry in step)
-        {
-            largest = Math.Max(largest, Math.Abs(entry));
-        }
-
+        double largest = DenseVector.Largest(step);
         if (largest > LargestStep)
         {
             DenseVector.Divide(step, largest / LargestStep);

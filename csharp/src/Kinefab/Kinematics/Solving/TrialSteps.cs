@@ -83,12 +83,12 @@ internal sealed class TrialSteps
             var mixture = new double[motions[0].Length];
             for (int k = 0; k < motions.Count; k++)
             {
-                Add(mixture, VelocitySpace.Weight(k, round), motions[k]);
+                DenseVector.Add(mixture, VelocitySpace.Weight(k, round), motions[k]);
             }
 
             DenseVector.Divide(mixture, DenseVector.Length(mixture));
             double[] left = Followed(mixture, isLast: true, out bool isClosed);
-            Add(left, -1, mixture);
+            DenseVector.Add(left, -1, mixture);
             if (!isClosed || DenseVector.Length(left) > 1 - Whole)
             {
                 return false;
@@ -185,11 +185,11 @@ internal sealed class TrialSteps
     {
         _moved.CopyFrom(_from);
         var left = new double[velocity.Length];
-        Add(left, length, velocity);
+        DenseVector.Add(left, length, velocity);
         _newton.Motion.Start(_moved.Poses);
         _newton.Motion.Move(_moved.Poses, left);
         _closing.Close(_moved);
-        Add(left, 1, _closing.Closing);
+        DenseVector.Add(left, 1, _closing.Closing);
         DenseVector.Divide(left, length);
         return left;
     }
@@ -203,20 +203,12 @@ internal sealed class TrialSteps
             var direction = new double[columns[0].Length];
             for (int j = 0; j < columns.Count; j++)
             {
-                Add(direction, values.Vector(j, k) / values.Values[k], columns[j]);
+                DenseVector.Add(direction, values.Vector(j, k) / values.Values[k], columns[j]);
             }
 
             directions.Add(direction);
         }
 
         return directions;
-    }
-
-    private static void Add(double[] sum, double share, double[] vector)
-    {
-        for (int i = 0; i < sum.Length; i++)
-        {
-            sum[i] += share * vector[i];
-        }
     }
 }

@@ -85,19 +85,10 @@ internal sealed class VelocitySpace
         var step = new double[Linear.Length];
         for (int k = 0; k < _basis.Count; k++)
         {
-            double weight = Weight(k, round);
-            for (int i = 0; i < step.Length; i++)
-            {
-                step[i] += weight * _basis[k][i];
-            }
+            DenseVector.Add(step, Weight(k, round), _basis[k]);
         }
 
-        double largest = 0;
-        foreach (double entry in step)
-        {
-            largest = Math.Max(largest, Math.Abs(entry));
-        }
-
+        double largest = DenseVector.Largest(step);
         for (int i = 0; i < step.Length && largest > 0; i++)
         {
             step[i] *= length / largest;

@@ -105,8 +105,11 @@ internal readonly struct EnergyAudit
     }
 
     /// <summary>Slows the bodies down until energy has not grown since by more than drives can have given.</summary>
-    public void Dampen(LaneBatch<ScalarLane> batch, in EnergyAudit since) =>
-        LaneEnergy<ScalarLane>.Take(batch, 0, Math.Max(0, GainSince(since)), LaneEnergy<ScalarLane>.Takeable(batch, 0, Kinetic));
+    public void Dampen(LaneBatch<ScalarLane> batch, in EnergyAudit since)
+    {
+        double takeable = LaneEnergy<ScalarLane>.Takeable(batch, 0, Kinetic, out CommonMotion common);
+        LaneEnergy<ScalarLane>.Take(batch, 0, Math.Max(0, GainSince(since)), takeable, common);
+    }
 
     /// <summary>
     /// Whether energy less work changed since by no more than a share of what moves, and rounding. Where it may be lost, as

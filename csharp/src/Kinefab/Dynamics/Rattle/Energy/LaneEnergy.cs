@@ -85,15 +85,17 @@ internal static class LaneEnergy<V>
     /// <param name="batch">Built at the end pose.</param>
     /// <param name="lane">The island's.</param>
     /// <param name="kinetic">What moves, J.</param>
-    public static double Takeable(LaneRecords<V> batch, int lane, double kinetic)
+    /// <param name="common">Its common motion, for <see cref="Take"/>.</param>
+    public static double Takeable(LaneRecords<V> batch, int lane, double kinetic, out CommonMotion common)
     {
+        common = default;
         if (!batch.Shape.IsFloating)
         {
             return kinetic;
         }
 
-        CommonMotion.Of(batch, lane, out double common);
-        return kinetic - common > Rounding * kinetic ? kinetic - common : 0;
+        common = CommonMotion.Of(batch, lane, out double energy);
+        return kinetic - energy > Rounding * kinetic ? kinetic - energy : 0;
     }
 
     /// <summary>Takes as much of an energy from the speeds of a lane's bodies as they can give, or gives it to them.</summary>
@@ -101,7 +103,8 @@ internal static class LaneEnergy<V>
     /// <param name="lane">Its lane.</param>
     /// <param name="energy">What is to be taken, J.</param>
     /// <param name="takeable">See <see cref="Takeable"/>, J.</param>
-    public static void Take(LaneRecords<V> batch, int lane, double energy, double takeable)
+    /// <param name="common">See there.</param>
+    public static void Take(LaneRecords<V> batch, int lane, double energy, double takeable, in CommonMotion common)
     {
         if (energy == 0 || !(takeable > 0))
         {
@@ -112,7 +115,6 @@ internal static class LaneEnergy<V>
         double factor = Math.Sqrt(1 - Math.Min(EnergyLedger.MostOfKinetic, energy / takeable));
         if (batch.Shape.IsFloating)
         {
-            CommonMotion common = CommonMotion.Of(batch, lane, out _);
             for (int body = 0; body < batch.Shape.MovingBodies; body++)
             {
                 common.ScaleRest(batch, body, lane, factor);

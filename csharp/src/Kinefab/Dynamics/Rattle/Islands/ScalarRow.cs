@@ -241,10 +241,32 @@ internal struct ScalarRow
     /// <param name="times">How often it is slowed down in all.</param>
     public void SlowDown(int times)
     {
-        double before = Pace;
-        Slowdowns = times;
-        Built.VelocityTarget *= Pace / before;
-        Built.Stiffness *= Pace / before;
+        if (times != Slowdowns)
+        {
+            double before = Pace;
+            Slowdowns = times;
+            Scale(ref Built, Pace / before);
+        }
+    }
+
+    /// <summary>A drive that was slowed down asks for its speed, or for the rate at which its C is to fall, at that pace.</summary>
+    /// <param name="row">As its joint wrote it.</param>
+    public readonly void SetPace(ref ConstraintRow row)
+    {
+        if (Slowdowns > 0)
+        {
+            Scale(ref row, Pace);
+        }
+    }
+
+    // A spring has no pace: its row may be one that was a drive's.
+    private static void Scale(ref ConstraintRow row, double factor)
+    {
+        if (row.Has(RowFlags.Drive) && !row.Has(RowFlags.Spring))
+        {
+            row.VelocityTarget *= factor;
+            row.Stiffness *= factor;
+        }
     }
 
     /// <summary>The speed that a drive is asked for, 1/s of its C.</summary>

@@ -60,7 +60,7 @@ internal sealed class ScalarRows
         scalar.IsActive = true;
         _isFactored &= scalar.ProjectedAs == ProjectedAs.Inactive || row.HasJacobianOf(scalar.Built);
         scalar.Built = row;
-        Slow(ref scalar.Built, scalar);
+        scalar.SetPace(ref scalar.Built);
     }
 
     /// <summary>The bodies have moved or the matrix was changed: it is to be assembled anew.</summary>
@@ -82,7 +82,7 @@ internal sealed class ScalarRows
         ref ScalarRow scalar = ref _rows[_first[block] + slot];
         scalar.HasEnd = true;
         scalar.End = row;
-        Slow(ref scalar.End, scalar);
+        scalar.SetPace(ref scalar.End);
     }
 
     /// <summary>A block's rows at the end of the drift as those of the pose that is built.</summary>
@@ -130,16 +130,6 @@ internal sealed class ScalarRows
         for (int i = 0; i < _rows.Length; i++)
         {
             _rows[i].Slowdowns = 0;
-        }
-    }
-
-    // A drive asks for its speed, or the rate at which its C is to fall, at the pace that the mechanism was seen to follow.
-    private static void Slow(ref ConstraintRow row, in ScalarRow scalar)
-    {
-        if (scalar.Slowdowns > 0 && row.Has(RowFlags.Drive) && !row.Has(RowFlags.Spring))
-        {
-            row.VelocityTarget *= scalar.Pace;
-            row.Stiffness *= scalar.Pace;
         }
     }
 

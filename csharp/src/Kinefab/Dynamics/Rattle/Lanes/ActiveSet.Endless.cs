@@ -87,7 +87,7 @@ internal sealed partial class ActiveSet<V>
         for (int i = 0; i < _rows.Length; i++)
         {
             ref ScalarRow scalar = ref _rows[i];
-            if (!scalar.IsEndlessDrive || Math.Sign(scalar.Built.VelocityTarget) == -scalar.SlowdownSide)
+            if (!scalar.IsEndlessDrive || Side(scalar.Built.VelocityTarget) == -scalar.SlowdownSide)
             {
                 scalar.SlowDown(0);
             }
@@ -121,7 +121,7 @@ internal sealed partial class ActiveSet<V>
             }
 
             double asked = scalar.Built.VelocityTarget;
-            scalar.SlowdownSide = Math.Sign(asked);
+            scalar.SlowdownSide = Side(asked);
             bool isFollowed = !scalar.IsStalled && StartSpeed(scalar) * scalar.SlowdownSide >= LeastFollowed * Math.Abs(asked) - tolerance;
             scalar.SlowDown(isFollowed ? Math.Max(0, scalar.Slowdowns - 1) : Math.Min(MostSlowdowns, scalar.Slowdowns + Slowdown));
             isAny |= scalar.Slowdowns > 0;
@@ -129,6 +129,9 @@ internal sealed partial class ActiveSet<V>
 
         return isAny;
     }
+
+    // The sign of a speed; of no number none.
+    private static int Side(double speed) => speed > 0 ? 1 : speed < 0 ? -1 : 0;
 
     /// <summary>Whether a drive has no limit of force.</summary>
     public bool HasEndless() => Array.Exists(_rows, row => row.IsEndlessDrive);

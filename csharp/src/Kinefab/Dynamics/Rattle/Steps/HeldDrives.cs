@@ -36,8 +36,14 @@ internal static class HeldDrives
         // What the joints leave of the drives' responses, and what the drives that act take from those that are left.
         double[][] left = Array.ConvertAll(drives, drive => Left(batch, scalars, exact, drives, drive));
         double[] own = Array.ConvertAll(drives, drive => Impulses<ScalarLane>.ResponseOf(batch, scalars.Row(drive).Block, scalars.Row(drive).Built));
-        double[] byJoints = Array.ConvertAll(Indices(drives), j => left[j][j] / own[j]);
-        var waiting = new List<int>(Indices(drives));
+        var byJoints = new double[drives.Length];
+        var waiting = new List<int>();
+        for (int j = 0; j < drives.Length; j++)
+        {
+            byJoints[j] = left[j][j] / own[j];
+            waiting.Add(j);
+        }
+
         while (waiting.Count > 0)
         {
             int first = First(waiting, left, own, drives, scalars);
@@ -91,17 +97,6 @@ internal static class HeldDrives
                 : Math.Abs(speedA) != Math.Abs(speedB) ? Math.Abs(speedB).CompareTo(Math.Abs(speedA))
                 : speedB.CompareTo(speedA);
         }
-    }
-
-    private static int[] Indices(int[] of)
-    {
-        int[] indices = new int[of.Length];
-        for (int i = 0; i < indices.Length; i++)
-        {
-            indices[i] = i;
-        }
-
-        return indices;
     }
 
     // Speeds along the drives that an impulse of 1 along one of them gives once the joints have answered.

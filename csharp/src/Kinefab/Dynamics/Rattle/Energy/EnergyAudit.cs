@@ -73,6 +73,9 @@ internal readonly struct EnergyAudit
     /// </summary>
     public bool IsClosed => !(_driven > 0) && _sprung == 0;
 
+    /// <summary>Whether springs hold energy: what a soft limit's damper takes of it where the joint leaves faster than the spring follows is lost without an impulse.</summary>
+    public bool IsSprung => _stored > 0;
+
     /// <summary>Energy that came of nothing since, J.</summary>
     public double GainSince(in EnergyAudit since) => Change(since) - (_driven - since._driven);
 

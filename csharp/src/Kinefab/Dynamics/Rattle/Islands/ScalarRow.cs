@@ -177,8 +177,8 @@ internal struct ScalarRow
     /// <summary>What is left of the speed of a drive that was slowed down.</summary>
     public readonly double Pace => Slowdowns == 0 ? 1 : Math.Pow(SlowerBy, -Slowdowns);
 
-    /// <summary>Whether it is there and a drive whose force has no bound to a side.</summary>
-    public readonly bool IsEndlessDrive => IsActive && Built.Has(RowFlags.Drive) && IsEndless;
+    /// <summary>Whether it is there and a motor or prescribed motion whose force has no bound to a side: a spring's follows from where it is.</summary>
+    public readonly bool IsEndlessDrive => IsActive && Built.Has(RowFlags.Drive) && !Built.Has(RowFlags.Spring) && IsEndless;
 
     /// <summary>Whether it has none to either side, so that a motor keeps its speed whatever strikes.</summary>
     public readonly bool HoldsThroughBlows => Math.Min(Built.Maximum, -Built.Minimum) > Endless;

@@ -322,7 +322,7 @@ internal sealed class LaneStep<V>
         Lane<V> kinetic = LaneEnergy<V>.Kinetic(Batch);
         Lane<V> given = LaneEnergy<V>.Work(Batch) + Lane<V>.Load(work.CompliantWork, 0);
         given = Batch.Axes == null ? given : given + Batch.Axes.Work(dt);
-        given = Batch.Shape.HasKinematic ? given + LaneEnergy<V>.KinematicWorkBound(Batch) : given;
+        given = Batch.Shape.HasKinematic ? given + LaneEnergy<V>.KinematicWorkBound(Batch, Batch.Work.TotalImpulses) : given;
         kinetic.Store(work.Kinetic, 0);
         Lane<V>.Max(kinetic, LaneEnergy<V>.FirstWork(Batch, dt)).Store(work.Moving, 0);
         (kinetic - Lane<V>.Load(work.StartKinetic, 0) - given).Store(work.Gain, 0);

@@ -104,6 +104,7 @@ internal sealed partial class StepController
         Array.Clear(_batch.Work.TotalImpulses, 0, _batch.Work.TotalImpulses.Length);
         _batch.ActiveSet?.ClearWork();
         _batch.Work.CompliantWork[0] = 0;
+        _batch.Work.DrivenWork = 0;
         _part.Begin(dt);
         _part.Tries = 0;
         _tolerance = tolerance;

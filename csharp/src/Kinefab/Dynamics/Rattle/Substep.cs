@@ -315,6 +315,7 @@ internal sealed class Substep
 
     private void Accumulate(double[] impulses)
     {
+        EnergyAudit.AddDriven(_batch, _length, impulses);
         for (int i = 0; i < impulses.Length; i++)
         {
             _batch.Work.TotalImpulses[i] += impulses[i];

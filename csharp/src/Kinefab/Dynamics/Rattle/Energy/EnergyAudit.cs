@@ -42,7 +42,7 @@ internal readonly struct EnergyAudit
         _forced = 0;
         _stored = batch.ActiveSet?.StoredEnergy(dt) ?? 0;
         _sprung = batch.ActiveSet?.SpringWork() ?? 0;
-        _driven = (batch.ActiveSet?.MotorWorkBound(dt) ?? 0) + KinematicWorkBound(batch);
+        _driven = batch.Work.DrivenWork;
         Kinetic = NumberOf(LaneEnergy<ScalarLane>.Kinetic(batch), batch);
         Moving = Math.Max(Kinetic, NumberOf(LaneEnergy<ScalarLane>.FirstWork(batch, dt), batch));
         double[] a = batch.Bodies;
@@ -88,17 +88,19 @@ internal readonly struct EnergyAudit
         return a[w] * x * x + a[w + 1] * y * y + a[w + 2] * z * z + 2 * (Math.Abs(a[w + 3]) * x * y + Math.Abs(a[w + 4]) * x * z + Math.Abs(a[w + 5]) * y * z);
     }
 
-    private static double KinematicWorkBound(LaneBatch<ScalarLane> batch)
+    /// <summary>Adds to the account the most that motors and kinematic bodies can have given by impulses, at the pose and for the time in which they gave them.</summary>
+    /// <param name="batch">Built at the end pose of the part.</param>
+    /// <param name="h">Its length, s.</param>
+    /// <param name="impulses">Of all rows, N s or N m s.</param>
+    public static void AddDriven(LaneBatch<ScalarLane> batch, double h, double[] impulses)
     {
-        if (!batch.Shape.HasKinematic)
+        batch.Work.DrivenWork += batch.ActiveSet?.MotorWorkBound(h, impulses) ?? 0;
+        if (batch.Shape.HasKinematic)
         {
-            return 0;
+            batch.ActiveSet?.WriteRows(true);
+            batch.Work.DrivenWork += NumberOf(LaneEnergy<ScalarLane>.KinematicWorkBound(batch, impulses), batch);
+            batch.ActiveSet?.WriteRows(false);
         }
-
-        batch.ActiveSet?.WriteRows(true);
-        double bound = NumberOf(LaneEnergy<ScalarLane>.KinematicWorkBound(batch), batch);
-        batch.ActiveSet?.WriteRows(false);
-        return bound;
     }
 
     private static double NumberOf(Lane<ScalarLane> lane, LaneBatch<ScalarLane> batch)

@@ -52,8 +52,10 @@ internal static class LaneEnergy<V>
         return Lane<V>.Splat(time * time / 2) * sum;
     }
 
-    /// <summary>The most that kinematic bodies gave in the step: each row's impulse at the speed that they have along it, which is theirs for the whole step.</summary>
-    public static Lane<V> KinematicWorkBound(LaneRecords<V> batch)
+    /// <summary>The most that kinematic bodies gave: each row's impulse at the speed that they have along it, which is theirs for the whole step.</summary>
+    /// <param name="batch">Built at the end pose.</param>
+    /// <param name="impulses">Of all rows, N s or N m s.</param>
+    public static Lane<V> KinematicWorkBound(LaneRecords<V> batch, double[] impulses)
     {
         double[] speeds = batch.Work.Solution;
         double[] without = batch.Work.LastSolution;
@@ -63,7 +65,7 @@ internal static class LaneEnergy<V>
         Lane<V> sum = Lane<V>.Splat(0);
         for (int i = 0; i < speeds.Length; i += Lane<V>.Width)
         {
-            sum += Lane<V>.Abs((Lane<V>.Load(speeds, i) - Lane<V>.Load(without, i)) * Lane<V>.Load(batch.Work.TotalImpulses, i));
+            sum += Lane<V>.Abs((Lane<V>.Load(speeds, i) - Lane<V>.Load(without, i)) * Lane<V>.Load(impulses, i));
         }
 
         return sum;

@@ -22,6 +22,7 @@ internal sealed class Workspace<V>
 
         Response = new double[3 * sides * w];
         Turns = new double[4 * BodyLanes.Count];
+        BodiesBefore = shape.ScalarCount > 0 ? new double[LaneRecords<V>.Body(shape.Bodies.Length, 0)] : Array.Empty<double>();
         Error = new double[rows * w];
         LastError = new double[rows * w];
         LastAngles = shape.IsInconsistent ? new double[rows * w] : Array.Empty<double>();
@@ -64,6 +65,9 @@ internal sealed class Workspace<V>
     /// <summary>A body's record in four lanes, for four bodies of one island that turn side by side.</summary>
     public double[] Turns { get; }
 
+    /// <summary>The bodies' records before a blow; none where there are no scalar rows.</summary>
+    public double[] BodiesBefore { get; }
+
     /// <summary>C at the end of the drift, and one iteration before.</summary>
     public double[] Error { get; }
 
@@ -73,6 +77,9 @@ internal sealed class Workspace<V>
     public double[] LastAngles { get; }
 
     public double[] CompliantWork { get; }
+
+    /// <summary>Of the only lane, the most that motors and kinematic bodies can have given since the start of the step, J.</summary>
+    public double DrivenWork { get; set; }
 
     /// <summary>Inverse of the largest moment of a body about one of its joints, of each lane, 1/(kg m^2).</summary>
     public double[] CompliantInertia { get; }

@@ -85,6 +85,7 @@ internal sealed partial class ActiveSet<V>
             isAny |= scalar.IsApart && scalar.IsActive && IsHardLimit(scalar.Built) && scalar.Built.GeometricError <= reach;
         }
 
+        _isBlow = isAny;
         for (int i = 0; i < _rows.Length && isAny; i++)
         {
             ref ScalarRow scalar = ref _rows[i];
@@ -100,7 +101,13 @@ internal sealed partial class ActiveSet<V>
                 scalar.StartSpeed = isSpent ? 0 : StartSpeed(scalar);
                 scalar.State = scalar.Built.GeometricError - scalar.Allowed <= reach ? RowState.Free : RowState.AtBound;
             }
-            else if (!(scalar.Kind is RowKind.SpeedMotor or RowKind.Motion && scalar.HoldsThroughBlows))
+            else if (scalar.Kind is RowKind.SpeedMotor or RowKind.Motion && scalar.HoldsThroughBlows && !scalar.IsHeld)
+            {
+                // One that stalls pushes back at once what would throw it back.
+                scalar.StartSpeed = StartSpeed(scalar);
+                scalar.State = RowState.Free;
+            }
+            else
             {
                 scalar.State = RowState.AtBound;
             }
@@ -109,9 +116,45 @@ internal sealed partial class ActiveSet<V>
         return isAny;
     }
 
+    /// <summary>
+    /// After a blow in which a drive without limit of force and limits ask for speeds that contradict each other, as where it drives its joint against its
+    /// stop: the drive lets go and the limits throw nothing back, which is where ever smaller bounces against such a drive end. False where there is none.
+    /// </summary>
+    public bool YieldDrives()
+    {
+        bool isAny = false, isMissed = Array.Exists(_rows, row => row.State == RowState.Free && !HasTargetSpeed(row));
+        for (int i = 0; i < _rows.Length && isMissed; i++)
+        {
+            ref ScalarRow scalar = ref _rows[i];
+            bool yields = scalar.State == RowState.Free && scalar.Kind is RowKind.SpeedMotor or RowKind.Motion
+                && (!HasTargetSpeed(scalar) || scalar.ImpulseSecondHalf < scalar.Low || scalar.ImpulseSecondHalf > scalar.High);
+            scalar.State = yields ? RowState.AtBound : scalar.State;
+            isAny |= yields;
+        }
+
+        for (int i = 0; i < _rows.Length && isAny; i++)
+        {
+            ref ScalarRow scalar = ref _rows[i];
+            _batch.VelocityImpulses[scalar.Index] = 0;
+            scalar.ImpulseSecondHalf = 0;
+            scalar.StartSpeed = scalar.Kind == RowKind.Limit ? 0 : scalar.StartSpeed;
+        }
+
+        return isAny;
+    }
+
+    // Rows that leave each other no speed are solved as if they were soft: they miss theirs by as much as they differ.
+    private bool HasTargetSpeed(in ScalarRow scalar)
+    {
+        const double mostMissed = 1e-3;
+        double target = TargetSpeed(scalar);
+        return Math.Abs(StartSpeed(scalar) - target) <= mostMissed * (Math.Abs(target) + Math.Abs(scalar.StartSpeed)) + Least;
+    }
+
     /// <summary>As <see cref="BeginImpact"/> without a blow: limits that are reached are left at rest, whatever the joint came with.</summary>
     public void BeginRest(double reach)
     {
+        _isBlow = false;
         for (int i = 0; i < _rows.Length; i++)
         {
             ref ScalarRow scalar = ref _rows[i];

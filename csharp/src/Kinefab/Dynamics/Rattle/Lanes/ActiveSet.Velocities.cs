@@ -11,6 +11,7 @@ internal sealed partial class ActiveSet<V>
     /// <summary>At the end pose: gives springs the rest of their impulse and finds which rows the projection may hold.</summary>
     public void BeginVelocities(double tolerance)
     {
+        _isBlow = false;
         for (int i = 0; i < _rows.Length; i++)
         {
             ref ScalarRow scalar = ref _rows[i];
@@ -89,6 +90,12 @@ internal sealed partial class ActiveSet<V>
                     // What pushed the joint back out of its stop on the way is no speed to leave it with.
                     low = -scalar.ImpulseFirstHalf;
                     high = double.PositiveInfinity;
+                }
+                else if (_isBlow)
+                {
+                    // What it takes; of one that stalls, to the side to which it pushes.
+                    low = scalar.IsStalled && scalar.ImpulseFirstHalf > 0 ? 0 : double.NegativeInfinity;
+                    high = scalar.IsStalled && scalar.ImpulseFirstHalf < 0 ? 0 : double.PositiveInfinity;
                 }
 
                 if (scalar.ImpulseSecondHalf < low || scalar.ImpulseSecondHalf > high)
@@ -173,7 +180,7 @@ internal sealed partial class ActiveSet<V>
         return Math.Abs(asked - StartSpeed(scalar)) <= share * Math.Abs(asked) + tolerance;
     }
 
-    // A spring that answers holds the drift's speed. Newton's scalar row of impact: the speed after a stop against the speed before
+    // A spring that answers holds the drift's speed. A drive that stalls is held at another speed than its own: in a blow it holds that. Newton's scalar row of impact: the speed after a stop against the speed before
     // the step, above the threshold alone.
     private static double TargetSpeed(in ScalarRow scalar)
     {
@@ -184,7 +191,7 @@ internal sealed partial class ActiveSet<V>
 
         if (scalar.Kind != RowKind.Limit)
         {
-            return scalar.Built.VelocityTarget;
+            return scalar.IsStalled ? scalar.StartSpeed : scalar.Built.VelocityTarget;
         }
 
         bool bounces = scalar.Built.Has(RowFlags.Restitution) && -scalar.StartSpeed > scalar.Built.BounceThreshold;

@@ -96,16 +96,17 @@ internal sealed partial class ActiveSet<V>
         return sum;
     }
 
-    /// <summary>The most that motors and prescribed motions can have given since the start of the step, J.</summary>
-    /// <param name="dt">Step, s.</param>
-    public double MotorWorkBound(double dt)
+    /// <summary>The most that motors and prescribed motions can have given by impulses, J.</summary>
+    /// <param name="h">In how long, s.</param>
+    /// <param name="impulses">Of all rows, N s or N m s.</param>
+    public double MotorWorkBound(double h, double[] impulses)
     {
         double sum = 0;
         for (int i = 0; i < _rows.Length; i++)
         {
             ref ScalarRow scalar = ref _rows[i];
-            double fastest = scalar.Built.VelocityTarget * (scalar.Built.Has(RowFlags.Motion) ? scalar.Growth(dt) : 1);
-            sum += scalar.IsActive && !scalar.Built.Has(RowFlags.Spring) ? Math.Abs(fastest * _batch.Work.TotalImpulses[scalar.Index]) : 0;
+            double fastest = scalar.Built.VelocityTarget * (scalar.Built.Has(RowFlags.Motion) ? scalar.Growth(h) : 1);
+            sum += scalar.IsActive && !scalar.Built.Has(RowFlags.Spring) ? Math.Abs(fastest * impulses[scalar.Index]) : 0;
         }
 
         return sum;

@@ -29,6 +29,9 @@ internal sealed partial class ActiveSet<V>
     private int _seenCount;
     private bool _movesAll;
 
+    // Whether the projection is that of a blow.
+    private bool _isBlow;
+
     public ActiveSet(LaneRecords<V> batch, ScalarRows scalars)
     {
         _batch = batch;

@@ -15,6 +15,7 @@ internal sealed class Snapshot
     // LastTwist of each block's joint, or all coordinates of its coupling.
     private readonly double[] _angles;
     private double _compliantWork;
+    private double _drivenWork;
 
     public Snapshot(LaneBatch<ScalarLane> batch)
     {
@@ -34,6 +35,7 @@ internal sealed class Snapshot
     public void Save(LaneBatch<ScalarLane> batch)
     {
         _compliantWork = batch.Work.CompliantWork[0];
+        _drivenWork = batch.Work.DrivenWork;
         Array.Copy(batch.Bodies, _bodies, _bodies.Length);
         Array.Copy(batch.VelocityImpulses, _half, _half.Length);
         Array.Copy(batch.Work.TotalImpulses, _total, _total.Length);
@@ -57,6 +59,7 @@ internal sealed class Snapshot
     public void Restore(LaneBatch<ScalarLane> batch)
     {
         batch.Work.CompliantWork[0] = _compliantWork;
+        batch.Work.DrivenWork = _drivenWork;
         Array.Copy(_bodies, batch.Bodies, _bodies.Length);
         Array.Copy(_half, batch.VelocityImpulses, _half.Length);
         Array.Copy(_total, batch.Work.TotalImpulses, _total.Length);

@@ -61,7 +61,14 @@ internal static class VelocityProjection<V>
             return false;
         }
 
+        Array.Copy(batch.Bodies, batch.Work.BodiesBefore, batch.Bodies.Length);
         RunWithActiveSet(batch, 0, tolerance, batch.ActiveSet, exact);
+        if (batch.ActiveSet.YieldDrives())
+        {
+            Array.Copy(batch.Work.BodiesBefore, batch.Bodies, batch.Bodies.Length);
+            RunWithActiveSet(batch, 0, tolerance, batch.ActiveSet, exact);
+        }
+
         return true;
     }
 

@@ -100,13 +100,22 @@ internal sealed class Substep
         SetLength(h);
         scalars.BeginPart();
         double left = h;
-        for (int blows = 0; ; blows++)
+        bool isAgain = false;
+        for (int blows = 0; ; blows += isAgain ? 0 : 1)
         {
-            scalars.LocatesEvents = blows < MaxBlows;
-            scalars.BeginPiece();
-            _pieceStart.Save(_batch);
-            Array.Copy(_batch.VelocityImpulses, _guess, _guess.Length);
-            _guessLength = _length;
+            if (isAgain)
+            {
+                ReturnToPieceStart(left);
+            }
+            else
+            {
+                scalars.LocatesEvents = blows < MaxBlows;
+                scalars.BeginPiece();
+                _pieceStart.Save(_batch);
+                Array.Copy(_batch.VelocityImpulses, _guess, _guess.Length);
+                _guessLength = _length;
+            }
+
             if (!TryDriftFromPieceStart(left, tolerance))
             {
                 HasFailedAtEvent = _converged[0] || blows > 0;
@@ -121,7 +130,20 @@ internal sealed class Substep
 
             // None where a pose so far off has no number for it.
             int first = scalars.FirstReached(left);
-            if (first < 0 || !TryReach(left, passed, scalars.Row(first), tolerance, out double piece) || !Complete(piece, h, tolerance))
+            if (first < 0 || !TryReach(left, passed, scalars.Row(first), tolerance, out double piece))
+            {
+                isAgain = first >= 0 && scalars.HoldBack(first, tolerance);
+                if (!isAgain)
+                {
+                    HasFailedAtEvent = true;
+                    return false;
+                }
+
+                continue;
+            }
+
+            isAgain = false;
+            if (!Complete(piece, h, tolerance))
             {
                 HasFailedAtEvent = true;
                 return false;
@@ -235,9 +257,7 @@ internal sealed class Substep
         for (int trial = 0; trial < MaxTrials; trial++)
         {
             piece = bracket.Next();
-            _pieceStart.Restore(_batch);
-            Begin(_guessLength);
-            SetLength(piece);
+            ReturnToPieceStart(piece);
             if (!TryDriftFromPieceStart(piece, tolerance))
             {
                 return false;
@@ -265,10 +285,15 @@ internal sealed class Substep
             return false;
         }
 
+        ReturnToPieceStart(piece);
+        return TryDriftFromPieceStart(piece, tolerance) && !(_batch.ActiveSet!.NearestApart() < 0);
+    }
+
+    private void ReturnToPieceStart(double piece)
+    {
         _pieceStart.Restore(_batch);
         Begin(_guessLength);
         SetLength(piece);
-        return TryDriftFromPieceStart(piece, tolerance) && !(_batch.ActiveSet!.NearestApart() < 0);
     }
 
     // Ends a piece of a part whose drift has arrived.

@@ -261,4 +261,55 @@ internal sealed class LoopRobustnessTests
 
         Vector3d Turn(int body) => body == JointModel.World ? Vector3d.Zero : m.Bodies.AngularVelocities[body];
     }
+
+    /// <summary>
+    /// A spring without limit of force was taken for a motor: where a step had failed and the joints left it no freedom of its own, it gave nothing from then
+    /// on, without a word, and energy came and went by what it would have held.
+    /// </summary>
+    [TestCase(200038)]
+    [TestCase(200158)]
+    [TestCase(200365)]
+    public void Step_SpringWithoutLimitOfForce_ActsAsOneThatNeverReachesIts(int seed)
+    {
+        Assert.That(Bits(double.PositiveInfinity), Is.EqualTo(Bits(1e20)));
+
+        ulong Bits(double limit)
+        {
+            MultibodySystem m = new RandomLoop(seed).System;
+            foreach (JointModel joint in m.Joints)
+            {
+                if (joint is D6Joint { DriveSlerp: { IsActive: true } slerp } ball)
+                {
+                    slerp.ForceLimit = limit;
+                    ball.DriveSlerp = slerp;
+                }
+            }
+
+            var solver = new RattleSolver(m);
+            for (int i = 0; i < 160; i++)
+            {
+                solver.Step(0.005);
+            }
+
+            return MechanismMeasures.Bits(m);
+        }
+    }
+
+    /// <summary>What a soft limit's damper takes where its joint leaves faster than the spring follows looked like an error of the step: 68 to 96 parts for naught.</summary>
+    [TestCase(200071)]
+    [TestCase(200465)]
+    public void Step_JointLeavesASoftLimitFast_TakesFewParts(int seed)
+    {
+        MultibodySystem m = new RandomLoop(seed).System;
+        var solver = new RattleSolver(m);
+        double most = 0;
+        for (int i = 0; i < 200; i++)
+        {
+            double before = m.SubstepWork;
+            solver.Step(0.005);
+            most = Math.Max(most, (m.SubstepWork - before) / m.Joints.Length);
+        }
+
+        Assert.That(most, Is.LessThanOrEqualTo(50));
+    }
 }

@@ -22,7 +22,7 @@ internal sealed class Workspace<V>
 
         Response = new double[3 * sides * w];
         Turns = new double[4 * BodyLanes.Count];
-        BodiesBefore = shape.ScalarCount > 0 ? new double[LaneRecords<V>.Body(shape.Bodies.Length, 0)] : Array.Empty<double>();
+        BodiesBefore = shape.ScalarCount > 0 ? new double[shape.Bodies.Length * BodyLanes.Count * w] : Array.Empty<double>();
         Error = new double[rows * w];
         LastError = new double[rows * w];
         LastAngles = shape.IsInconsistent ? new double[rows * w] : Array.Empty<double>();

@@ -11,6 +11,9 @@ internal sealed partial class ActiveSet<V>
     // Speed, m/s or rad/s, against which a row's is nothing.
     private const double Least = 1e-10;
 
+    // Share of the speeds in a blow by which rows may miss theirs.
+    private const double MostMissed = 1e-3;
+
     /// <summary>The least C at the end of the drift of the limits, hard and soft, that were not reached at its start, m or rad; infinite without one.</summary>
     public double NearestApart()
     {
@@ -64,7 +67,22 @@ internal sealed partial class ActiveSet<V>
         for (int i = 0; i < _rows.Length; i++)
         {
             _rows[i].IsLeft = false;
+            _rows[i].IsHeldBack = false;
         }
+    }
+
+    /// <summary>
+    /// Where no drift is short enough not to pass a limit that its joint stands at and is about to leave, as a drive without limit of force pushes it back
+    /// at once: it is held from the piece's start on. False where it is another.
+    /// </summary>
+    /// <param name="index">The row's.</param>
+    /// <param name="tolerance">Largest C, m or rad.</param>
+    public bool HoldBack(int index, double tolerance)
+    {
+        ref ScalarRow scalar = ref _rows[index];
+        bool isOne = HasEndless() && scalar.IsActive && scalar.StartError <= Reach * tolerance && !scalar.IsLeft && !scalar.IsHeldBack && IsThrownBack(scalar);
+        scalar.IsHeldBack |= isOne;
+        return isOne;
     }
 
     /// <summary>
@@ -122,7 +140,7 @@ internal sealed partial class ActiveSet<V>
     /// </summary>
     public bool YieldDrives()
     {
-        bool isAny = false, isMissed = Array.Exists(_rows, row => row.State == RowState.Free && !HasTargetSpeed(row));
+        bool isAny = false, isMissed = HasMissedSpeed();
         for (int i = 0; i < _rows.Length && isMissed; i++)
         {
             ref ScalarRow scalar = ref _rows[i];
@@ -144,11 +162,41 @@ internal sealed partial class ActiveSet<V>
     }
 
     // Rows that leave each other no speed are solved as if they were soft: they miss theirs by as much as they differ.
+    private bool HasMissedSpeed()
+    {
+        double fastest = 0;
+        bool hasDrive = false, isMissed = false;
+        for (int i = 0; i < _rows.Length; i++)
+        {
+            ref ScalarRow scalar = ref _rows[i];
+            bool isFree = scalar.State == RowState.Free;
+            hasDrive |= isFree && scalar.Kind is RowKind.SpeedMotor or RowKind.Motion;
+            isMissed |= isFree && !HasTargetSpeed(scalar);
+            fastest = isFree ? Math.Max(fastest, Math.Abs(scalar.StartSpeed)) : fastest;
+        }
+
+        if (!hasDrive || isMissed)
+        {
+            return hasDrive;
+        }
+
+        Impulses<V>.NegativeSpeeds(_batch);
+        for (int n = 0; n < _batch.Shape.Blocks.Length && !isMissed; n++)
+        {
+            int first = _batch.Shape.Pattern.Rows[n];
+            for (int row = first; row < first + _batch.Shape.Blocks[n].BilateralCount; row++)
+            {
+                isMissed |= Math.Abs(_batch.Work.Solution[row]) > MostMissed * fastest + Least;
+            }
+        }
+
+        return isMissed;
+    }
+
     private bool HasTargetSpeed(in ScalarRow scalar)
     {
-        const double mostMissed = 1e-3;
         double target = TargetSpeed(scalar);
-        return Math.Abs(StartSpeed(scalar) - target) <= mostMissed * (Math.Abs(target) + Math.Abs(scalar.StartSpeed)) + Least;
+        return Math.Abs(StartSpeed(scalar) - target) <= MostMissed * (Math.Abs(target) + Math.Abs(scalar.StartSpeed)) + Least;
     }
 
     /// <summary>As <see cref="BeginImpact"/> without a blow: limits that are reached are left at rest, whatever the joint came with.</summary>

@@ -41,7 +41,7 @@ public sealed class MechanismCostTests
         var coupling = new Coupling { Id = "sum", B = Of(1), Terms = Enumerable.Range(2, 31).Select(i => new CouplingTerm { Coordinate = Of(i), Ratio = 1 }).ToArray() };
         Mechanism mechanism = Mechanism.Create(SmallScene.Validate(pair with { Couplings = [coupling] }));
         Assert.That(mechanism.Couplings.Single().Terms.Append(mechanism.Couplings.Single().Driven).Select(i => mechanism.Coordinates[i].Component), Is.EqualTo(Enumerable.Range(2, 31).Append(1)));
-        Assert.That(mechanism.Rows.Couplings.Single().Bodies, Is.EqualTo(new[] { 1 }));
+        Assert.That(mechanism.Rows.Couplings.Single().Bodies.Single(), Is.EqualTo(1));
     }
 
     private static double BytesPerJoint(string kind, int joints)

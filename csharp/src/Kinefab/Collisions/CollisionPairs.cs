@@ -14,8 +14,7 @@ internal sealed class CollisionPairs
     // Of two bodies that a joint keeps from colliding, the lower object first.
     private readonly HashSet<(int, int)> _joined = new();
 
-    // Of the objects that the source's rules name.
-    private readonly HashSet<(int, int)> _ignored = new();
+    private readonly IgnoredPairs _ignored;
 
     public CollisionPairs(ValidScene scene)
     {
@@ -26,16 +25,15 @@ internal sealed class CollisionPairs
             foreach (Component component in objects[i].Components)
             {
                 if (component is Joint { Enabled: true, ConnectedBody: int connected, EnableCollision: false })
-                    _joined.Add(Pair(Body(i), Body(connected)));
+                    _joined.Add(IgnoredPairs.Pair(Body(i), Body(connected)));
             }
 
             // PhysX lets no link touch the one above it.
             if (scene.Held(i) is { ConnectedBody: int parent })
-                _joined.Add(Pair(i, parent));
+                _joined.Add(IgnoredPairs.Pair(i, parent));
         }
 
-        foreach (IgnoredCollision pair in scene.Document.IgnoredCollisions)
-            _ignored.Add(Pair(pair.A, pair.B));
+        _ignored = new IgnoredPairs(scene);
     }
 
     /// <summary>Whether some body moves by forces at all.</summary>
@@ -53,35 +51,21 @@ internal sealed class CollisionPairs
         }
     }
 
+    /// <summary>A number for what never collides among itself: one body's objects, and all that no force moves.</summary>
+    public int Group(int gameObject)
+    {
+        int body = Body(gameObject);
+        return Moves(body) ? body : Nobody;
+    }
+
     /// <summary>Whether colliders of two objects push each other where they meet.</summary>
     public bool MayCollide(int first, int second)
     {
         (int a, int b) = (Body(first), Body(second));
-        return a != b && (Moves(a) || Moves(b)) && !_joined.Contains(Pair(a, b)) && !AreIgnored(first, second);
+        return a != b && (Moves(a) || Moves(b)) && !_joined.Contains(IgnoredPairs.Pair(a, b)) && !_ignored.Contains(first, second);
     }
 
     private bool Moves(int body) => body != Nobody && _scene.Body(body) is { IsKinematic: false };
 
     private int Body(int gameObject) => _scene.BodyOf(gameObject) ?? Nobody;
-
-    // A rule may name a body, or an object within it.
-    private bool AreIgnored(int first, int second)
-    {
-        if (_ignored.Count == 0)
-            return false;
-        for (int? a = first; a is int one; a = Above(one))
-        {
-            for (int? b = second; b is int other; b = Above(other))
-            {
-                if (_ignored.Contains(Pair(one, other)))
-                    return true;
-            }
-        }
-
-        return false;
-    }
-
-    private int? Above(int gameObject) => Body(gameObject) == gameObject ? null : _scene.Document.GameObjects[gameObject].Parent;
-
-    private static (int, int) Pair(int a, int b) => a < b ? (a, b) : (b, a);
 }

@@ -74,18 +74,13 @@ public static class StartOverlaps
     // Those that may collide and whose boxes overlap by more than is tolerated: what stands in a box moves no further to be free than the box itself.
     private static IEnumerable<(StandingCollider First, StandingCollider Second, double Tolerated)> Near(List<StandingCollider> colliders, CollisionPairs pairs, CancellationToken cancellation)
     {
-        int[] order = Enumerable.Range(0, colliders.Count).OrderBy(i => colliders[i].Hull.Low.X).ToArray();
+        ConvexShape[] hulls = colliders.Select(collider => collider.Hull).ToArray();
+        int[] groups = colliders.Select(collider => pairs.Group(collider.Owner)).ToArray();
         var near = new List<(int First, int Second)>();
-        for (int i = 0; i < order.Length; i++)
+        foreach ((int a, int b) in BoxSweep.Pairs(hulls, groups, cancellation))
         {
-            StandingCollider first = colliders[order[i]];
-            for (int k = i + 1; k < order.Length && colliders[order[k]].Hull.Low.X <= first.Hull.High.X; k++)
-            {
-                cancellation.ThrowIfCancellationRequested();
-                StandingCollider second = colliders[order[k]];
-                if (Reach(first.Hull, second.Hull) > Tolerated(first, second) && pairs.MayCollide(first.Owner, second.Owner))
-                    near.Add(order[i] < order[k] ? (order[i], order[k]) : (order[k], order[i]));
-            }
+            if (Reach(hulls[a], hulls[b]) > Tolerated(colliders[a], colliders[b]) && pairs.MayCollide(colliders[a].Owner, colliders[b].Owner))
+                near.Add(IgnoredPairs.Pair(a, b));
         }
 
         foreach ((int a, int b) in near.OrderBy(pair => pair))

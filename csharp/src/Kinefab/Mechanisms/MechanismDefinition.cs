@@ -91,14 +91,22 @@ internal sealed class MechanismDefinition
     /// <summary>Index of a component's joint in <see cref="Joints"/>; -1 when its object is inactive or it is switched off.</summary>
     public int IndexOf(int gameObject, int component)
     {
-        for (int j = _firstJoints[gameObject]; j < _firstJoints[gameObject + 1]; j++)
+        // By halves: couplings may name each of thousands of joints of one object.
+        int low = _firstJoints[gameObject];
+        int end = _firstJoints[gameObject + 1];
+        while (low < end)
         {
-            if (Joints[j].Component == component)
+            int middle = (low + end) / 2;
+            if (Joints[middle].Component < component)
             {
-                return j;
+                low = middle + 1;
+            }
+            else
+            {
+                end = middle;
             }
         }
 
-        return -1;
+        return low < _firstJoints[gameObject + 1] && Joints[low].Component == component ? low : -1;
     }
 }

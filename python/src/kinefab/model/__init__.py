@@ -30,7 +30,7 @@ from .freedoms import (
     Passive,
     SphericalDrive,
 )
-from .ids import IN_BRACKETS, free_id
+from .ids import IN_BRACKETS, FreeIds
 from .joints import UNLOCKED, Joint, JointKind, alike_from_both_sides, freedoms_of, kind_of, unlocked_of
 from .meshes import Mesh, MeshKey, MeshReference
 from .pairs import Apart, Colliding, ignored_groups
@@ -63,6 +63,7 @@ __all__ = [
     "FaceKind",
     "Feature",
     "FeatureKind",
+    "FreeIds",
     "Freedom",
     "IN_BRACKETS",
     "Joint",
@@ -102,7 +103,6 @@ __all__ = [
     "Wrap",
     "alike_from_both_sides",
     "exchange_of",
-    "free_id",
     "freedoms_of",
     "ignored_groups",
     "is_same_from_both_sides",

@@ -9,7 +9,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import replace
 
-from ..model import free_id
+from ..model import FreeIds
 from .scene import ArticulationBody, Coupling, FixedJoint, GameObject, Joint, JointCoordinate, Rigidbody, UnityScene
 from .scene.vectors import ONE
 
@@ -28,11 +28,11 @@ def with_led_joints_on_light_bodies(scene: UnityScene) -> UnityScene:
     }
     if not moved:
         return scene
-    taken = {own.id for own in objects}
+    free_ids = FreeIds(own.id for own in objects)
     for owner, number in moved:
         led = scene.gameObjects[owner]
         joint = led.components[number]
-        id = free_id(f"{led.id}/counted:{number}", taken)
+        id = free_ids.take(f"{led.id}/counted:{number}")
         carried = (light_body(led.components), FixedJoint(connectedBody=owner), joint)
         moved[owner, number] = len(objects)
         stand = replace(led.transform, localScale=ONE)

@@ -11,7 +11,7 @@ from typing import Any
 from ..diagnostics import Report
 from ..findings import JointFinding
 from ..geometry.collision import possible
-from ..model import PLAIN, Collider, PhysicsMaterial, Scene, Surface, free_id
+from ..model import PLAIN, Collider, FreeIds, PhysicsMaterial, Scene, Surface
 from ..options import Ground
 from ..rigid import RigidGroups, active_nodes, is_dynamic, is_kinematic
 from . import frames
@@ -118,7 +118,7 @@ class _Builder:
     surfaces: list[Surface] = field(default_factory=list[Surface])
     physics_materials: list[PhysicsMaterial] = field(default_factory=list[PhysicsMaterial])
     joints: dict[str, tuple[UnityJoint, int]] = field(default_factory=dict[str, tuple[UnityJoint, int]])
-    taken: set[str] = field(default_factory=set[str])
+    free_ids: FreeIds = field(default_factory=FreeIds)
     rigidbodies: Rigidbodies | None = None
     parents: list[int | None] = field(default_factory=list[int | None])
     ground: int | None = None
@@ -159,11 +159,11 @@ class _Builder:
                 )
             )  # fmt: skip
             self.object_of.append(index)
-            self.taken.clear()
+            self.free_ids = FreeIds()
             self._add_bodies(i, index)
             self._add_colliders(i, index)
             for site in node.sites:
-                id = free_id(f"{node.id}/site:{site.name}", self.taken)
+                id = self.free_ids.take(f"{node.id}/site:{site.name}")
                 self._object(GameObject(id, site.name, index, transform=transform_of(site.pose), role="site"))
 
     def _object(self, made: GameObject) -> int:
@@ -181,7 +181,7 @@ class _Builder:
             assert body.mesh is not None
             holder = parent
             if len(bodies) > 1 or not at_home(body):
-                id = free_id(f"{node.id}/body:{body.name}", self.taken)
+                id = self.free_ids.take(f"{node.id}/body:{body.name}")
                 placed = transform_of(body.pose, body.scale)
                 holder = self._object(GameObject(id, body.name, parent, transform=placed))
             mesh = self.scene.meshes[body.mesh]
@@ -195,7 +195,7 @@ class _Builder:
                 for chosen in chosen_colliders(self.colliders, shape, body, mesh, moves, node.id, self.report):
                     at = holder
                     if chosen.pose is not None:
-                        id = free_id(f"{node.id}/collider:{body.name}", self.taken)
+                        id = self.free_ids.take(f"{node.id}/collider:{body.name}")
                         placed = transform_of(chosen.pose, chosen.scale)
                         at = self._object(GameObject(id, f"{body.name} collider", holder, transform=placed))
                     self.components[at].append(chosen.component)
@@ -217,7 +217,7 @@ class _Builder:
                 holder = parent
                 if placed.pose is not None:
                     name = collider.name or collider.kind.value
-                    id = free_id(f"{node.id}/collider:{name}", self.taken)
+                    id = self.free_ids.take(f"{node.id}/collider:{name}")
                     transform = transform_of(placed.pose, placed.scale)
                     holder = self._object(GameObject(id, name, parent, transform=transform))
                 self.components[holder].append(placed.component)
@@ -294,13 +294,13 @@ class _Builder:
             for c in own
             if isinstance(c, JointComponent) and not c.enableCollision
         }
-        taken = set(self.joints)
+        free_ids = FreeIds(self.joints)
 
         def keep(own: int, other: int, reason: str) -> None:
             if frozenset((own, other)) in joined:
                 return
             joined.add(frozenset((own, other)))
-            id = free_id(apart_id(self.objects[own].id, self.objects[other].id), taken)
+            id = free_ids.take(apart_id(self.objects[own].id, self.objects[other].id))
             self.components[own].append(apart_joint(id, other, reason))
 
         for own, other in self._beside_bases():

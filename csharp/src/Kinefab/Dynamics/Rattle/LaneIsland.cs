@@ -1,3 +1,6 @@
+using System;
+using System.Collections.Generic;
+
 namespace Kinefab.Dynamics.Rattle;
 
 /// <summary>An island that is stepped in lanes: as it is there, and with all of its rows for the steps that it makes alone.</summary>
@@ -17,6 +20,24 @@ internal sealed class LaneIsland
 
     public Island Alone { get; }
 
+    /// <summary>All of them, each once.</summary>
+    public IEnumerable<Island> Forms
+    {
+        get
+        {
+            yield return Alone;
+            if (InLanes != Alone)
+            {
+                yield return InLanes;
+            }
+
+            if (Resting != null)
+            {
+                yield return Resting;
+            }
+        }
+    }
+
     /// <summary>The island's forms; null where it has rows that are not written in lanes.</summary>
     public static LaneIsland? Of(Island island)
     {
@@ -28,7 +49,7 @@ internal sealed class LaneIsland
         }
 
         // Drives have their rows in every step: the limits' beside them cost no more than a row that is not there.
-        bool isDriven = System.Array.Exists(free.Blocks, block => block.HasAxisRow);
+        bool isDriven = Array.Exists(free.Blocks, block => block.HasAxisRow);
         return isDriven || free.RowCount == resting.RowCount ? new LaneIsland(resting, null, island) : new LaneIsland(free, resting, island);
     }
 

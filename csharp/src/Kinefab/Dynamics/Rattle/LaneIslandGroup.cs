@@ -32,6 +32,11 @@ internal sealed class LaneIslandGroup<V> : IslandGroup
         _mechanism = mechanism;
         _islands = islands.ToArray();
         LaneIsland shape = _islands[0];
+        foreach (Island form in shape.Forms)
+        {
+            form.Order(mechanism.Cancellation);
+        }
+
         _free = Steps(shape.InLanes, island => island.InLanes);
         _resting = shape.Resting is null ? Array.Empty<LaneStep<V>>() : Steps(shape.Resting, island => island.Resting!);
         _histories = new SubstepHistory[_islands.Length];

@@ -85,10 +85,17 @@ internal sealed class LoopConsistencyProbe
     /// <summary>Each island with such a loop.</summary>
     /// <param name="mechanism">Not changed.</param>
     /// <param name="cancellation">Ends the search early, with an OperationCanceledException.</param>
-    public static List<InconsistentLoop> Find(MultibodySystem mechanism, CancellationToken cancellation = default)
+    public static List<InconsistentLoop> Find(MultibodySystem mechanism, CancellationToken cancellation = default) =>
+        Find(mechanism, IslandFinder.Find(mechanism), cancellation);
+
+    /// <summary>Each island with such a loop.</summary>
+    /// <param name="mechanism">Not changed.</param>
+    /// <param name="islands">Its islands; those with loops of joints have their patterns afterwards.</param>
+    /// <param name="cancellation">Ends the search early, with an OperationCanceledException.</param>
+    public static List<InconsistentLoop> Find(MultibodySystem mechanism, List<Island> islands, CancellationToken cancellation)
     {
         var found = new List<InconsistentLoop>();
-        foreach (Island island in IslandFinder.Find(mechanism))
+        foreach (Island island in islands)
         {
             cancellation.ThrowIfCancellationRequested();
             island.Loops = LoopConsistency.Inconsistent;

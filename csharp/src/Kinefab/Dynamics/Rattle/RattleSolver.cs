@@ -23,14 +23,13 @@ internal sealed class RattleSolver : ISolver, IStepParts
 
     private readonly MultibodySystem _mechanism;
     private readonly int _maxWidth;
-    private readonly List<IslandGroup> _groups = new();
     private readonly Dictionary<int, LoopConsistency> _fits = new();
-    private readonly List<Island> _alone = new();
-    private readonly List<LaneIsland> _inLanes = new();
     private readonly Action<JointReaction[]> _writeReactions;
+    private List<IslandGroup> _groups = new();
 
-    // How often islands were found: a number for those that are there.
-    private int _findings;
+    // The islands as they were found last. Others come in their place, but these lists never change, so that a state that is taken down keeps them.
+    private List<Island> _alone = new();
+    private List<LaneIsland> _inLanes = new();
     private LayoutWatch _watch;
     private double _dt;
     private double _tolerance;
@@ -45,10 +44,11 @@ internal sealed class RattleSolver : ISolver, IStepParts
     }
 
     /// <summary>A solver for the mechanism as it stands.</summary>
-    /// <param name="mechanism">Bodies and joints.</param>
+    /// <param name="mechanism">Bodies and joints; its <see cref="MultibodySystem.Cancellation"/> ends the making early.</param>
     /// <param name="loops">What <see cref="LoopConsistencyProbe"/> found in it.</param>
     /// <param name="maxWidth">Most islands to solve side by side; the result does not depend on it.</param>
-    public RattleSolver(MultibodySystem mechanism, List<InconsistentLoop> loops, int maxWidth = int.MaxValue)
+    /// <param name="probed">The islands that it looked at, for the patterns that they have; null: none.</param>
+    public RattleSolver(MultibodySystem mechanism, List<InconsistentLoop> loops, int maxWidth = int.MaxValue, List<Island>? probed = null)
     {
         _mechanism = mechanism;
         _maxWidth = maxWidth;
@@ -67,7 +67,9 @@ internal sealed class RattleSolver : ISolver, IStepParts
             }
         }
 
-        Regroup();
+        var known = new KnownPatterns();
+        probed?.ForEach(known.Add);
+        Regroup(known);
     }
 
     /// <inheritdoc/>
@@ -76,7 +78,7 @@ internal sealed class RattleSolver : ISolver, IStepParts
         _mechanism.UnreadReactions = null;
         if (IsStale(out bool canBreak))
         {
-            Regroup();
+            Regroup(Known());
             _watch.IsStale(out canBreak);
         }
 
@@ -119,26 +121,18 @@ internal sealed class RattleSolver : ISolver, IStepParts
     /// <inheritdoc/>
     public void Exchange(StateTape tape)
     {
-        // Where the groups are to be made anew by the next step, there is nothing to remember.
-        bool isStale = !tape.IsPlaying && IsStale(out _);
-        int findings = _findings;
-        tape.Value(ref isStale);
-        tape.Value(ref findings);
-        if (tape.IsPlaying && (isStale || findings != _findings))
+        // Also where they are out of date by now, since a joint may become again what it was before anything is found anew.
+        tape.Value(ref _alone);
+        tape.Value(ref _inLanes);
+        tape.Value(ref _watch);
+        if (tape.IsPlaying)
         {
-            Regroup();
-        }
-        else if (tape.IsPlaying)
-        {
-            MakeGroups();
+            _groups = MakeGroups(_alone, _inLanes);
         }
 
         foreach (IslandGroup group in _groups)
         {
-            if (!isStale)
-            {
-                group.Exchange(tape);
-            }
+            group.Exchange(tape);
         }
     }
 
@@ -152,14 +146,40 @@ internal sealed class RattleSolver : ISolver, IStepParts
         }
     }
 
-    private void Regroup()
+    // What is found takes its place at the end and in whole, lest one that is ended early leave half of it.
+    private void Regroup(KnownPatterns known)
     {
-        _mechanism.HasChangedBodies = false;
-        _findings++;
-        _alone.Clear();
-        _inLanes.Clear();
-        List<Island> rest = IslandFinder.Find(_mechanism);
+        var alone = new List<Island>();
+        var inLanes = new List<LaneIsland>();
+        foreach (Island island in IslandFinder.Find(_mechanism))
+        {
+            _mechanism.Cancellation.ThrowIfCancellationRequested();
+
+            // What a break has left of an island that was probed is still as it was found.
+            RowBlock? probed = Array.Find(island.Blocks, block => block.Joint != null && _fits.ContainsKey(block.Index));
+            island.Loops = probed is null ? LoopConsistency.Exact : _fits[probed.Index];
+            LaneIsland? lanes = LaneIsland.Of(island);
+            if (lanes is null)
+            {
+                known.GiveTo(island);
+                alone.Add(island);
+            }
+            else
+            {
+                foreach (Island form in lanes.Forms)
+                {
+                    known.GiveTo(form);
+                }
+
+                inLanes.Add(lanes);
+            }
+        }
+
+        _groups = MakeGroups(alone, inLanes);
+        _alone = alone;
+        _inLanes = inLanes;
         _watch = new LayoutWatch(_mechanism.Joints);
+        _mechanism.HasChangedBodies = false;
         for (int i = 0; i < _mechanism.Joints.Length; i++)
         {
             if (_mechanism.Joints[i].Layout().IsEmpty)
@@ -167,74 +187,70 @@ internal sealed class RattleSolver : ISolver, IStepParts
                 _mechanism.Reactions[i] = default;
             }
         }
+    }
 
-        foreach (Island island in rest)
+    // Of the islands that there are.
+    private KnownPatterns Known()
+    {
+        var known = new KnownPatterns();
+        _alone.ForEach(known.Add);
+        foreach (LaneIsland island in _inLanes)
         {
-            // What a break has left of an island that was probed is still as it was found.
-            RowBlock? probed = Array.Find(island.Blocks, block => block.Joint != null && _fits.ContainsKey(block.Index));
-            island.Loops = probed is null ? LoopConsistency.Exact : _fits[probed.Index];
-        }
-
-        foreach (Island island in rest)
-        {
-            LaneIsland? lanes = LaneIsland.Of(island);
-            if (lanes is null)
+            foreach (Island form in island.Forms)
             {
-                _alone.Add(island);
-            }
-            else
-            {
-                _inLanes.Add(lanes);
+                known.Add(form);
             }
         }
 
-        MakeGroups();
+        return known;
     }
 
     // With nothing remembered, of the islands that were found: these never change, and their patterns cost more than a step where they are wide.
-    private void MakeGroups()
+    private List<IslandGroup> MakeGroups(List<Island> alone, List<LaneIsland> inLanes)
     {
-        _groups.Clear();
-        foreach (List<Island> some in InGroups(_alone))
+        var groups = new List<IslandGroup>();
+        foreach (List<Island> some in InGroups(alone))
         {
-            _groups.Add(new ScalarIslandGroup(_mechanism, some));
+            groups.Add(new ScalarIslandGroup(_mechanism, some));
         }
 
-        var inLanes = new List<LaneIsland>(_inLanes);
-        while (inLanes.Count > 0)
+        var rest = new List<LaneIsland>(inLanes);
+        while (rest.Count > 0)
         {
-            LaneIsland shape = inLanes[0];
-            List<LaneIsland> alike = inLanes.FindAll(island => island.HasShapeOf(shape));
-            inLanes.RemoveAll(new HashSet<LaneIsland>(alike).Contains);
-            AddInLanes(alike);
+            LaneIsland shape = rest[0];
+            List<LaneIsland> alike = rest.FindAll(island => island.HasShapeOf(shape));
+            rest.RemoveAll(new HashSet<LaneIsland>(alike).Contains);
+            AddInLanes(groups, alike);
         }
+
+        return groups;
     }
 
-    private void AddInLanes(List<LaneIsland> islands)
+    private void AddInLanes(List<IslandGroup> groups, List<LaneIsland> islands)
     {
 #if NET
         if (_maxWidth >= 8 && islands.Count >= 8 && System.Runtime.Intrinsics.Vector512.IsHardwareAccelerated)
         {
             int whole = islands.Count / 8 * 8;
-            AddGroups<Lane8>(islands.GetRange(0, whole));
+            AddGroups<Lane8>(groups, islands.GetRange(0, whole));
             islands.RemoveRange(0, whole);
         }
 
         if (_maxWidth >= 4 && islands.Count >= 2 && System.Runtime.Intrinsics.Vector256.IsHardwareAccelerated)
         {
-            AddGroups<Lane4>(islands);
+            AddGroups<Lane4>(groups, islands);
             return;
         }
 #endif
-        AddGroups<ScalarLane>(islands);
+        AddGroups<ScalarLane>(groups, islands);
     }
 
-    private void AddGroups<V>(List<LaneIsland> islands)
+    private void AddGroups<V>(List<IslandGroup> groups, List<LaneIsland> islands)
         where V : struct, ILane<V>
     {
         foreach (List<LaneIsland> some in InGroups(islands))
         {
-            _groups.Add(new LaneIslandGroup<V>(_mechanism, some));
+            groups.Add(new LaneIslandGroup<V>(_mechanism, some));
         }
     }
 

@@ -26,6 +26,7 @@ internal sealed class ScalarIslandGroup : IslandGroup
         _stills = Array.ConvertAll(_islands, _ => new Standstill());
         for (int i = 0; i < _islands.Length; i++)
         {
+            _islands[i].Order(mechanism.Cancellation);
             _batches[i] = new LaneBatch<ScalarLane>(_islands[i], new Workspace<ScalarLane>(_islands[i]));
             _controllers[i] = new StepController(_batches[i]);
             _corrections[i] = _islands[i].ScalarCount > 0 ? new StiffSpringCorrection(_islands[i], mechanism.Bodies) : null;

@@ -154,13 +154,16 @@ public sealed partial class World
         }
 
         var builder = new WorldBuilder(scene, locksAsJoints: solver == SolverKind.Exact);
-        List<InconsistentLoop> loops = LoopConsistencyProbe.Find(builder.MultibodySystem, cancellation);
+        List<Island> islands = IslandFinder.Find(builder.MultibodySystem);
+        List<InconsistentLoop> loops = LoopConsistencyProbe.Find(builder.MultibodySystem, islands, cancellation);
+        builder.MultibodySystem.Cancellation = cancellation;
         ISolver chosen = solver switch
         {
             SolverKind.Unity => new PgsSolver(builder.MultibodySystem, builder.Articulated),
-            SolverKind.Exact => new RattleSolver(builder.MultibodySystem, loops),
+            SolverKind.Exact => new RattleSolver(builder.MultibodySystem, loops, probed: islands),
             _ => throw new ArgumentOutOfRangeException(nameof(solver)),
         };
+        builder.MultibodySystem.Cancellation = default;
         List<Diagnostic> findings = solver == SolverKind.Exact ? ExactSolverCheck.Of(scene) : new List<Diagnostic>();
         findings.AddRange(InexactLoopCheck.Of(loops, builder.Joints));
         var names = new WorldNames(scene.Document.GameObjects, builder.Bodies, builder.Joints);
@@ -238,6 +241,8 @@ public sealed partial class World
         }
         catch (OperationCanceledException) when (before != null)
         {
+            // Coming back is not to be ended.
+            _mechanism.Cancellation = default;
             Restore(before);
             throw;
         }

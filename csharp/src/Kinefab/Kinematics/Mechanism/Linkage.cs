@@ -1,3 +1,4 @@
+using System.Threading;
 using Kinefab.Joints;
 using Kinefab.Numerics;
 
@@ -9,6 +10,8 @@ namespace Kinefab.Kinematics;
 /// </summary>
 internal sealed class Linkage
 {
+    private MechanismRows? _rows;
+
     /// <summary>Hangs the bodies on a tree.</summary>
     /// <param name="isFixed">For each body whether it never moves.</param>
     /// <param name="joints">Between these bodies and the world.</param>
@@ -26,7 +29,6 @@ internal sealed class Linkage
         Origin = origin;
         Length = length;
         Tree = new KinematicTree(isFixed, joints, isClosure);
-        Rows = new MechanismRows(Tree, joints, coordinates, couplings);
     }
 
     public int BodyCount { get; }
@@ -40,13 +42,20 @@ internal sealed class Linkage
     public KinematicTree Tree { get; }
 
     /// <summary>Which bodies each joint, coupling and coordinate depends on.</summary>
-    public MechanismRows Rows { get; }
+    public MechanismRows Rows => FindRows(default);
 
     /// <summary>Point that twists are referred to, world.</summary>
     public Vector3d Origin { get; }
 
     /// <summary>Typical distance of a body's joints, metres: what a radian weighs against.</summary>
     public double Length { get; }
+
+    /// <summary>
+    /// Finds <see cref="Rows"/> where nobody has asked for them yet. A loop's depend on all of its bodies, so that those of a grid of n joints are n^1.5
+    /// numbers, which whoever only places bodies does without.
+    /// </summary>
+    /// <param name="cancellation">Ends it early, with an OperationCanceledException.</param>
+    public MechanismRows FindRows(CancellationToken cancellation) => _rows ??= new MechanismRows(Tree, Joints, Coordinates, Couplings, cancellation);
 
     /// <summary>A body's pose; the identity for the world.</summary>
     public static Pose PoseOf(int body, Pose[] poses) => body < 0 ? Pose.Identity : poses[body];

@@ -1,4 +1,5 @@
 using System.Collections.Generic;
+using System.Threading;
 using Kinefab.Joints;
 
 namespace Kinefab.Kinematics;
@@ -6,23 +7,33 @@ namespace Kinefab.Kinematics;
 /// <summary>Which tree freedoms each joint, coordinate and coupling of a mechanism depends on.</summary>
 internal sealed class MechanismRows
 {
-    public MechanismRows(KinematicTree tree, JointModel[] joints, MechanismCoordinate[] coordinates, PositionCoupling[] couplings)
+    /// <summary>Finds them.</summary>
+    /// <param name="tree">Over the joints.</param>
+    /// <param name="joints">Of the mechanism.</param>
+    /// <param name="coordinates">Of these joints.</param>
+    /// <param name="couplings">Of these coordinates.</param>
+    /// <param name="cancellation">Ends it early, with an OperationCanceledException.</param>
+    public MechanismRows(KinematicTree tree, JointModel[] joints, MechanismCoordinate[] coordinates, PositionCoupling[] couplings, CancellationToken cancellation)
     {
         Joints = new RowPath[joints.Length];
         for (int j = 0; j < Joints.Length; j++)
         {
+            cancellation.ThrowIfCancellationRequested();
             Joints[j] = RowPath.Between(tree, joints[j].Body0, joints[j].Body1);
         }
 
         Couplings = new RowPath[couplings.Length];
         for (int i = 0; i < Couplings.Length; i++)
         {
+            cancellation.ThrowIfCancellationRequested();
             PositionCoupling coupling = couplings[i];
-            Couplings[i] = Joints[coordinates[coupling.Driven].Joint];
+            var paths = new List<RowPath> { Joints[coordinates[coupling.Driven].Joint] };
             foreach (int term in coupling.Terms)
             {
-                Couplings[i] = RowPath.Union(Couplings[i], Joints[coordinates[term].Joint], tree.Freedoms);
+                paths.Add(Joints[coordinates[term].Joint]);
             }
+
+            Couplings[i] = RowPath.Union(paths, tree.Freedoms);
         }
 
         var all = new List<RowPath>(Joints);

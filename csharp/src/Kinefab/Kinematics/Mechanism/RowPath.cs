@@ -38,17 +38,21 @@ internal sealed class RowPath
         return new RowPath(bodies, signs, tree.Freedoms);
     }
 
-    /// <summary>All bodies of two paths, each once; the signs hold for the first path where both have the body.</summary>
-    public static RowPath Union(RowPath a, RowPath b, int[] freedoms)
+    /// <summary>All bodies of some paths, each once; the signs hold for the first path that has the body.</summary>
+    public static RowPath Union(IEnumerable<RowPath> paths, int[] freedoms)
     {
-        var bodies = new List<int>(a.Bodies);
-        var signs = new List<double>(a.Signs);
-        for (int k = 0; k < b.Bodies.Length; k++)
+        var bodies = new List<int>();
+        var signs = new List<double>();
+        var seen = new HashSet<int>();
+        foreach (RowPath path in paths)
         {
-            if (!bodies.Contains(b.Bodies[k]))
+            for (int k = 0; k < path.Bodies.Length; k++)
             {
-                bodies.Add(b.Bodies[k]);
-                signs.Add(b.Signs[k]);
+                if (seen.Add(path.Bodies[k]))
+                {
+                    bodies.Add(path.Bodies[k]);
+                    signs.Add(path.Signs[k]);
+                }
             }
         }
 

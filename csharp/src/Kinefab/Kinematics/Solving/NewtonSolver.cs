@@ -46,7 +46,7 @@ internal sealed class NewtonSolver
     {
         _linkage = linkage;
         Cancellation = cancellation;
-        _normal = new NormalEquations(linkage.Tree, linkage.Rows.All, cancellation);
+        _normal = new NormalEquations(linkage.Tree, linkage.FindRows(cancellation).All, cancellation);
         Motion = new TreeMotion(linkage, _normal.Firsts, _normal.Step.Length);
         Equations = new PositionEquations(linkage, Motion, _normal);
         Limits = new LimitSet(linkage);

@@ -21,10 +21,10 @@ from ...model import (
     Constraint,
     ConstraintKind,
     Feature,
+    FreeIds,
     Joint,
     JointKind,
     Scene,
-    free_id,
     freedoms_of,
 )
 from ...partition import Partition
@@ -158,7 +158,7 @@ def _over_others(
     (first, a), (second, b) = ends if feature.node is not None else ends[::-1]
     assert b is not None  # one of the two is no ground
     base = "ground" if a is None else scene.nodes[a].id
-    id = free_id(f"{base} - {scene.nodes[b].id}", {link.joint.id for link in links})
+    id = FreeIds(link.joint.id for link in links).take(f"{base} - {scene.nodes[b].id}")
     frame_a, frame_b = (scene.pose(node).inverse() @ world for node in (a, b))
     joint = Joint(id, JointKind.FREE, a, b, frame_a, frame_b, freedoms_of(JointKind.FREE))
     return Link(first, second, joint, JointFinding(id))

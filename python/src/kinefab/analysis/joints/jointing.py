@@ -10,7 +10,7 @@ import numpy as np
 
 from ...diagnostics import Report, named
 from ...findings import JointFinding
-from ...model import RX, TY, TZ, Constraint, Coupling, Joint, MassProperties, Node, free_id
+from ...model import RX, TY, TZ, Constraint, Coupling, FreeIds, Joint, MassProperties, Node
 from ...spatial import Array, Pose
 from ..assembly.assemble import Assembly
 from ..freedom.finite import Candidate
@@ -39,7 +39,7 @@ class _Jointing:
         self.found: list[Link | Draft] = []
         self.nodes: list[Node] = []
         statements = assembly.equations.statements
-        self.names = {s.id for s in statements if isinstance(s, Joint)}
+        self.free_ids = FreeIds(s.id for s in statements if isinstance(s, Joint))
         self.where = {s.id: s.where for s in statements}
 
     def run(self) -> Links:
@@ -189,7 +189,7 @@ class _Jointing:
         weight = MassProperties(mass, np.zeros(3), 0.4 * mass * radius * radius * np.eye(3))
         self.nodes.append(
             Node(
-                free_id(f"middle:{name}", self.names),
+                self.free_ids.take(f"middle:{name}"),
                 f"middle {name}",
                 pose=Pose(np.eye(3), 0.5 * (near + far)),
                 mass=weight,
@@ -209,7 +209,7 @@ class _Jointing:
             first_is_a = self._rank(first) <= self._rank(second)
         a, b = bodies if first_is_a else bodies[::-1]
         node_a, node_b = self._node(a, relation), self._node(b, relation)
-        id = free_id(f"{self._label_of(node_a)} - {self._label_of(node_b)}", self.names)
+        id = self.free_ids.take(f"{self._label_of(node_a)} - {self._label_of(node_b)}")
         where = self.where.get(names[0], "")
         self.found.append(Draft(id, a, b, node_a, node_b, candidate, relation, names, where))
 

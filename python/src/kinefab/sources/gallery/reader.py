@@ -9,7 +9,7 @@ from dataclasses import replace
 from pathlib import Path
 
 from ...diagnostics import Report
-from ...model import IN_BRACKETS, Body, Scene, free_id
+from ...model import IN_BRACKETS, Body, FreeIds, Scene
 from ..bundle.reader import scene_from_values
 from ..reading.file import read_bytes
 from ..reading.json_text import parse_json, top_keys
@@ -71,7 +71,7 @@ def _joints(tree: Tree) -> tuple[list[Record], dict[str, str]]:
     """Records with ids of their own, and where each stands."""
     found: list[Record] = []
     places: dict[str, str] = {}
-    ids: set[str] = set()
+    free_ids = FreeIds(form=IN_BRACKETS)
     for group in ("joints", "as_built_joints"):
         for key, value in objects(tree.values.get(group)).items():
             place = f"/{group}/{shown(key)}"
@@ -83,5 +83,5 @@ def _joints(tree: Tree) -> tuple[list[Record], dict[str, str]]:
                 tree.report.dropped(feature, "GALLERY_LEFT_OUT", where, reason=str(error))
                 continue
             places[f"/joints/{len(found)}"] = place
-            found.append({"id": free_id(record["name"], ids, IN_BRACKETS), **record})
+            found.append({"id": free_ids.take(record["name"]), **record})
     return found, places

@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 
 from ...diagnostics import Report
-from ...model import IN_BRACKETS, free_id
+from ...model import IN_BRACKETS, FreeIds
 from ...spatial import Array
 from ..reading.record import MIN_DIRECTION, shown
 from ..robots.xml_elements import Element
@@ -45,7 +45,7 @@ class Statements:
         self.joints: list[Record] = []
         self.constraints: list[Record] = []
         self.lines: dict[str, int] = {}
-        self._ids: set[str] = set()
+        self._free_ids = FreeIds(form=IN_BRACKETS)
 
     def read(self) -> None:
         for owner, assembly in self.tree.owners:
@@ -74,7 +74,7 @@ class Statements:
 
     def _id(self, owner: tuple[str, ...], name: str) -> str:
         name = f"{self.tree.ids[owner]}/{name}" if owner else name
-        return free_id(name, self._ids, IN_BRACKETS)
+        return self._free_ids.take(name)
 
     # Joints ...........................................................................................................
 

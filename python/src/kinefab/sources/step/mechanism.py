@@ -14,11 +14,11 @@ from ...model import (
     FREEDOM_NAMES,
     IN_BRACKETS,
     Freedom,
+    FreeIds,
     Joint,
     JointKind,
     Motion,
     Scene,
-    free_id,
     freedoms_of,
     kind_of,
 )
@@ -45,7 +45,7 @@ def add_pairs(scene: Scene, text: Part21, turn: Array, length: float, report: Re
         node = placed.node(link)
         if node is not None:
             scene.nodes[node] = replace(scene.nodes[node], grounded=True)
-    ids: set[str] = set()
+    free_ids = FreeIds(form=IN_BRACKETS)
     coupled: list[tuple[Pair, Statement]] = []
     for pair in found.pairs:
         a, b = (placed.node(link) for link in pair.links)
@@ -56,7 +56,7 @@ def add_pairs(scene: Scene, text: Part21, turn: Array, length: float, report: Re
         elif len(pair.free) == len(FREEDOMS):
             continue  # it holds nothing
         else:
-            name = free_id(_plain(pair.name), ids, IN_BRACKETS)
+            name = free_ids.take(_plain(pair.name))
             where = f"{scene.source.uri}:#{pair.number}"
             if pair.kind in COUPLED:
                 coupled.append((pair, _tie(pair, name, a, b, turn, length, where)))

@@ -14,7 +14,7 @@ import numpy as np
 
 from ...diagnostics import Report
 from ...model import Joint as ModelJoint
-from ...model import Scene, free_id
+from ...model import FreeIds, Scene
 from ...rigid import RigidGroups
 from ...spatial import Pose, matrix_from_quaternion, quaternion_from_matrix
 from ..contact.overlaps import check_overlaps
@@ -87,7 +87,7 @@ class _Articulation:
     ground: int | None = None
     moved: dict[Edge, Edge] = field(default_factory=dict[Edge, Edge])
     """Of each joint the component that holds it now."""
-    taken: set[str] = field(default_factory=set[str])
+    free_ids: FreeIds = field(default_factory=FreeIds)
     """Ids of objects."""
 
     def scene_of_links(self) -> UnityScene:
@@ -109,7 +109,7 @@ class _Articulation:
             if (inner := parents[index][1]) is not None:
                 kinds = [isinstance(c, ArticulationBody) for c in self.objects[index].components]
                 self.moved[inner] = (index, kinds.index(True))
-        self.taken = {entry.id for entry in self.objects}
+        self.free_ids = FreeIds(entry.id for entry in self.objects)
         for edge in closing:
             self._close(edge, links)
         animations = self._clips(links.keys())
@@ -342,7 +342,7 @@ class _Articulation:
         self.moved[edge] = (len(self.objects), len(components) - 1)
         self.objects.append(
             GameObject(
-                free_id(f"kinefab:helper {joint.id or own.id}", self.taken),
+                self.free_ids.take(f"kinefab:helper {joint.id or own.id}"),
                 f"{name} closure",
                 None,
                 transform=_transform(self.poses[edge[0]]),

@@ -61,6 +61,7 @@ internal sealed class Island
     private readonly Vector3d[] _inverseInertias;
     private readonly int[] _sizes;
     private readonly List<(int Node, int Side)>[] _touching;
+    private readonly Island? _origin;
     private BlockPattern? _pattern;
     private Link[]? _links;
     private HubLink[]? _hubLinks;
@@ -71,7 +72,14 @@ internal sealed class Island
     /// <param name="blocks">Joints and couplings, their bodies as in the first list.</param>
     /// <param name="inverseInertias">Of the mechanism's bodies, about principal axes, 1/(kg m^2).</param>
     public Island(int[] bodies, int movingBodies, RowBlock[] blocks, Vector3d[] inverseInertias)
+        : this(bodies, movingBodies, blocks, inverseInertias, null)
     {
+    }
+
+    // The origin is the island that this is a form of.
+    private Island(int[] bodies, int movingBodies, RowBlock[] blocks, Vector3d[] inverseInertias, Island? origin)
+    {
+        _origin = origin;
         Bodies = bodies;
         MovingBodies = movingBodies;
         Blocks = blocks;
@@ -153,7 +161,10 @@ internal sealed class Island
     public bool IsHub(int body) => Hubs.Length > 0 && Array.BinarySearch(Hubs, body) >= 0;
 
     /// <summary>The blocks in their order, then the hubs in theirs.</summary>
-    public BlockPattern Pattern => _pattern ??= MakePattern(default);
+    public BlockPattern Pattern => Ordered(default);
+
+    /// <summary>Whether the pattern has been found.</summary>
+    public bool IsOrdered => _pattern != null;
 
     /// <summary>The couplings over bodies that are no hubs.</summary>
     public Link[] Links => _links ??= MakeLinks(_touching, Pattern);
@@ -211,7 +222,7 @@ internal sealed class Island
         }
 
         RowBlock[] plain = Array.ConvertAll(Blocks, block => block.InLanes(Blocks, holdsLimits));
-        return ((IsInconsistent || Hubs.Length > 0) && Array.Exists(plain, block => block.HasAxisRow)) || Array.Exists(plain, block => block.IsAssembled || block.Rows == 0) ? null : new Island(Bodies, MovingBodies, plain, _inverseInertias) { Loops = Loops };
+        return ((IsInconsistent || Hubs.Length > 0) && Array.Exists(plain, block => block.HasAxisRow)) || Array.Exists(plain, block => block.IsAssembled || block.Rows == 0) ? null : new Island(Bodies, MovingBodies, plain, _inverseInertias, this) { Loops = Loops };
     }
 
     /// <summary>Whether the other island is of the same build, so that both can share lanes.</summary>
@@ -310,7 +321,37 @@ internal sealed class Island
 
     /// <summary>Makes the pattern, which takes long for wide grids, so that it can be ended early.</summary>
     /// <exception cref="OperationCanceledException">It was cancelled.</exception>
-    public void Order(CancellationToken cancellation) => _pattern ??= MakePattern(cancellation);
+    public void Order(CancellationToken cancellation) => Ordered(cancellation);
+
+    /// <summary>Takes the pattern of another island, where that has been found and is the same: it has as many rows in each block, between the same bodies.</summary>
+    public void TakePattern(Island other)
+    {
+        if (_pattern is null && other._pattern != null && HasPatternOf(other))
+        {
+            _pattern = other._pattern;
+        }
+    }
+
+    private BlockPattern Ordered(CancellationToken cancellation) =>
+        _pattern ??= _origin != null && HasPatternOf(_origin) ? _origin.Ordered(cancellation) : MakePattern(cancellation);
+
+    private bool HasPatternOf(Island other)
+    {
+        if (MovingBodies != other.MovingBodies || Blocks.Length != other.Blocks.Length)
+        {
+            return false;
+        }
+
+        for (int n = 0; n < Blocks.Length; n++)
+        {
+            if (Blocks[n].Rows != other.Blocks[n].Rows || !Blocks[n].Bodies.AsSpan().SequenceEqual(other.Blocks[n].Bodies))
+            {
+                return false;
+            }
+        }
+
+        return true;
+    }
 
     private BlockPattern MakePattern(CancellationToken cancellation)
     {

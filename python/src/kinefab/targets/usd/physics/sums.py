@@ -14,7 +14,7 @@ import numpy as np
 from ....diagnostics import Report
 from ....findings import JointFinding
 from ....geometry.mass import principal
-from ....model import RX, TX, Coupling, Dynamics, Joint, JointKind, MassProperties, Node, free_id, freedoms_of
+from ....model import RX, TX, Coupling, Dynamics, FreeIds, Joint, JointKind, MassProperties, Node, freedoms_of
 from ....rigid import RigidGroups
 from ....spatial import Pose
 from ....unity.bodies.rigidbodies import body_mass
@@ -63,8 +63,7 @@ class _Links:
         self._scene, self._groups = content.scene, content.groups
         self.nodes, self.joints = [*content.scene.nodes], list[Joint]()
         self.findings = {**content.findings}
-        self._taken = {node.id for node in self.nodes} | {joint.id for joint in content.scene.joints}
-        self._taken |= {coupling.id for coupling in content.scene.couplings}
+        self._free_ids = FreeIds(one.id for one in (*self.nodes, *content.scene.joints, *content.scene.couplings))
 
     def chain(self, coupling: Coupling, follower: Joint, written: dict[str, Joint]) -> list[Coupling]:
         """Append the links of a coupling; returns what ties them to the terms' joints."""
@@ -80,7 +79,7 @@ class _Links:
         carried = follower.a if self._groups.is_ground(follower.b) else follower.b
         assert carried is not None, "a joint of the ground with itself is not written"
         for number, term in enumerate(coupling.terms[:-1], 1):
-            id = free_id(f"{coupling.id}:{number}", self._taken)
+            id = self._free_ids.take(f"{coupling.id}:{number}")
             dynamics = Dynamics(gravity=False, angular_damping=0.0)
             parent = self._scene.nodes[carried].parent
             self.nodes.append(
@@ -92,7 +91,7 @@ class _Links:
             ties.append(Coupling(id, coupling.kind, id, main, (term,), -here, coupling.where))
             on, frame, shifted = link, Pose(), shifted + here
         both = len(follower.unlocked) == 2
-        id = free_id(f"{coupling.id}:{len(coupling.terms)}", self._taken)
+        id = self._free_ids.take(f"{coupling.id}:{len(coupling.terms)}")
         kind = JointKind.CYLINDRICAL if both else kind
         self.joints.append(Joint(id, kind, on, follower.b, frame, last, freedoms_of(kind)))
         found = self.findings.get(follower.id, JointFinding(follower.id))

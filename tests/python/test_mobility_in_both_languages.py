@@ -116,6 +116,7 @@ APART_ONCE = {
     504242: (5, 5),
     504498: (5, 0),  # an obstructed turn whose coupling takes a slide back along with it
     502350: (0, 0),
+    720456: (5, 4),  # two motions that differ by a screw's small lead
     90882: (5, 5),  # obstructed velocities mixed with motions, which do not come back onto the joints in one go
 }
 """Mechanisms, by seed, that were once counted differently: mobility and idle freedoms."""
@@ -216,6 +217,27 @@ def rod_between_balls(handle: str | None) -> kinefab.Scene:
         else:
             scene.add_ball(rod, own, point=tuple(0.5 * (low + high)))
     return scene
+
+
+@pytest.mark.parametrize("lead", [0.1, 0.002])
+def test_spins_that_differ_by_a_small_lead_are_two(tmp_path, lead):
+    """Four parts on one axis in a ring of two cylindrical joints, a hinge and a screw: of the two in the middle each turns or screws
+    by itself, and so does each with the last.  The lead of one beside the mechanism's size was taken for what may be wrong in a motion,
+    and three were counted."""
+    scene, axis = kinefab.Scene(), {"point": (0, 0, 0), "axis": (0, 0, 1)}
+    base, first, second, last = (
+        scene.add_part(name, grounded=name == "Base", mass=None if name == "Base" else 1.0, translation=(0, 0, z))
+        for name, z in (("Base", 0.0), ("First", 1.0), ("Second", 2.0), ("Last", 3.0))
+    )
+    scene.add_joint("cylindrical", base, first, **axis)
+    scene.add_joint("cylindrical", base, second, **axis)
+    scene.add_hinge(first, last, point=(0, 0, 1), axis=(0, 0, 1))
+    scene.add_joint("screw", second, last, lead=lead, **axis)
+    found = analyse(scene)
+    assert (found.mobility, [one.count for one in found.idle]) == (4, [1] * 4)
+    if TOOL is not None:
+        kinefab.export(scene, tmp_path / "scene.kinefab")
+        assert differences(counted(tmp_path)[0]) == []
 
 
 def hinged(noise: float, *hinges: tuple[int, int, tuple[float, float, float]]) -> kinefab.Scene:

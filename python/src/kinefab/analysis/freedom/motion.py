@@ -174,7 +174,9 @@ def _searched(solver: Solver, part: int, first_order: BlockFreedom) -> FiniteFre
     first_order = replace(first_order, bodies=np.arange(1, solver.system.bodies))
     start = solver.system.start()
     if len(first_order.basis) > FEW and first_order.mobility**2 * len(first_order.basis) <= MOST_FORMS:
-        return _of_many(solver, first_order, start)
+        of_many = _of_many(solver, first_order, start)
+        if of_many is not None:
+            return of_many
     away = walked(solver, part, first_order, start)
     there = block_freedoms(solver, away)
     if there[part].mobility * len(first_order.basis) > MOST_WORK:
@@ -196,9 +198,9 @@ def _searched(solver: Solver, part: int, first_order: BlockFreedom) -> FiniteFre
     return FiniteFreedom(tangent.shape[1], here if here.shape[1] == tangent.shape[1] else tangent, True)
 
 
-def _of_many(solver: Solver, first_order: BlockFreedom, start: State) -> FiniteFreedom:
+def _of_many(solver: Solver, first_order: BlockFreedom, start: State) -> FiniteFreedom | None:
     """As ``_searched``, of a solver's only part of many bodies: only velocities are tried that second order leaves.  Where it
-    obstructs many at once, steps along mixtures lead back to where they began."""
+    obstructs many at once, steps along mixtures lead back to where they began.  None where it stays in doubt what moves."""
     floor, found = floor_of(solver, start), np.zeros((len(first_order.basis), 0))
     here = second_order(solver, first_order, start)
     most = max(1, here.basis(np.random.default_rng(WAYS)).shape[1])
@@ -216,6 +218,8 @@ def _of_many(solver: Solver, first_order: BlockFreedom, start: State) -> FiniteF
                     tangent, is_sure = ways[:, share > HALF], not np.any((share > DIRECTION) & (share < WHOLE))
                 if is_sure and _mixtures_move(solver, 0, freedom, state, tangent, LONG_STEP, floor_of(solver, state)):
                     break
+                if step == WALK + MOST_FURTHER - 1:
+                    return None
             twist = (WALK_STEP if step < WALK else FURTHER) * left.one(draw).reshape(-1, 6)
             there, open_ = solver.project(solver.system.moved(state, first_order.bodies, twist), None, floor)
             if open_[0] <= OPEN * floor[0]:

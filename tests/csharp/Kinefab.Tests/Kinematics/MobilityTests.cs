@@ -46,6 +46,7 @@ public class MobilityTests
         yield return Case("6R arm", () => SpatialMechanisms.Arm().Scene.Mechanism(), 30, 6, 6);
         yield return Case("ladder of 2", () => PlanarMechanisms.Ladder(2, 90).Scene.Mechanism(), 35, 1, 1);
         yield return Case("flat ladder of 2", () => PlanarMechanisms.Ladder(2, 0).Scene.Mechanism(), 35, 3, 1);
+        yield return Case("flat ladder of 40", () => PlanarMechanisms.Ladder(40, 0).Scene.Mechanism(), 605, 41, 1); // counted 2, its velocities tried one by one
         yield return Case("ladder of 40", () => PlanarMechanisms.Ladder(40, 90).Scene.Mechanism(), 605, 1, 1);
         yield return Case("toggle", () => Toggle().Mechanism, 20, 1, 1);
     }

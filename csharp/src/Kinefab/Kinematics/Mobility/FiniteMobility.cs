@@ -6,7 +6,8 @@ namespace Kinefab.Kinematics;
 
 /// <summary>
 /// Freedoms of finite motion of one block, which the velocities at one pose only bound from above: those that trial steps keep, at poses some
-/// steps away, where an isolated singular pose is left and branches of motions that meet in it have parted.
+/// steps away, where an isolated singular pose is left and branches of motions that meet in it have parted. Of many freedoms only the
+/// velocities are tried that second order leaves: where it obstructs many at once, steps along mixtures lead back to where they began.
 /// </summary>
 internal sealed class FiniteMobility
 {
@@ -23,7 +24,9 @@ internal sealed class FiniteMobility
     private readonly FreedomBlocks _blocks;
     private readonly FineClosing _closing;
     private readonly CancellationToken _cancellation;
+    private readonly VelocitySpace _start;
     private readonly TrialSteps _here;
+    private readonly SecondOrder? _left;
 
     /// <summary>Of a linkage all of whose freedoms are one block's, at a closed state.</summary>
     public FiniteMobility(Linkage linkage, NewtonSolver newton, FreedomBlocks blocks, FineClosing closing, VelocitySpace here, MechanismState state, CancellationToken cancellation)
@@ -33,7 +36,9 @@ internal sealed class FiniteMobility
         _blocks = blocks;
         _closing = closing;
         _cancellation = cancellation;
-        _here = new TrialSteps(newton, closing, here, state, cancellation);
+        _start = here;
+        _left = Left(here, state);
+        _here = Trials(here, _left, state);
         AtGeneralPose = here.Freedoms;
         for (int walk = 0; walk <= MaxOtherWalks && (walk == 0 || Freedoms < Math.Max(_here.Motions.Count, AtGeneralPose)); walk++)
         {
@@ -56,7 +61,9 @@ internal sealed class FiniteMobility
     {
         for (int i = 0; i < WalkSteps; i++)
         {
-            Walk(state, walk * WalkSteps + i);
+            VelocitySpace from = i == 0 ? _start : new VelocitySpace(_linkage, _newton, _blocks, state);
+            SecondOrder? leftThere = !isCounted ? null : i == 0 ? _left : Left(from, state);
+            Walk(state, from, leftThere, walk * WalkSteps + i);
         }
 
         for (int further = 0; ; further++)
@@ -67,7 +74,8 @@ internal sealed class FiniteMobility
                 return space;
             }
 
-            var there = new TrialSteps(_newton, _closing, space, state, _cancellation);
+            SecondOrder? left = Left(space, state);
+            TrialSteps there = Trials(space, left, state);
             bool isSure = there.IsSure && there.MixturesMove();
             if (isSure || further == MostFurther)
             {
@@ -75,15 +83,22 @@ internal sealed class FiniteMobility
                 return space;
             }
 
-            Walk(state, FurtherRounds + further);
+            Walk(state, space, left, FurtherRounds + further);
         }
     }
 
+    // What second order leaves, of many freedoms.
+    private SecondOrder? Left(VelocitySpace space, MechanismState state) =>
+        _closing.IsFew ? null : new SecondOrder(_newton, space, state, _cancellation);
+
+    private TrialSteps Trials(VelocitySpace space, SecondOrder? left, MechanismState state) =>
+        new(_newton, _closing, left is null ? space.Basis : left.Basis(), state, _cancellation);
+
     // A step along a mixture of all allowed velocities, the same on every machine; undone when the joints do not close.
-    private void Walk(MechanismState state, int round)
+    private void Walk(MechanismState state, VelocitySpace space, SecondOrder? left, int round)
     {
         _cancellation.ThrowIfCancellationRequested();
-        double[] step = new VelocitySpace(_linkage, _newton, _blocks, state).Mixture(round, WalkLength);
+        double[] step = left is null ? space.Mixture(round, WalkLength) : left.Mixture(round, WalkLength);
         MechanismState before = state.Clone();
         _newton.Motion.Start(state.Poses);
         _newton.Motion.Move(state.Poses, step);

@@ -15,9 +15,13 @@ internal sealed class IdleFreedoms
     // How far the cosine between two joints' twists, squared, may be from 1.
     private const double Shared = 1e-12;
 
-    // Length of a motion beside those already found from which it is another one: where velocities are obstructed, motions are known to a
-    // step's curvature.
-    private const double New = 1e-2;
+    // Where velocities are obstructed, motions are known to a step's curvature: the share of one up to which a block has no part in it, and
+    // what may be wrong in a twist that is taken from one.
+    private const double Curved = 1e-2;
+    private const double CurvedNoise = 1e-3;
+
+    // What of a motion is left beside those already found makes another one of it, beyond what may be wrong in it, so many times.
+    private const double New = 10;
 
     // Share of an exactly known motion up to which a block has no part in it.
     private const double Sure = 1e-6;
@@ -36,7 +40,7 @@ internal sealed class IdleFreedoms
     private readonly MechanismState _closed;
     private readonly JointGraph _graph;
     private readonly CutPairs _cuts;
-    private readonly List<(int Node, double[] Twist)[]> _known = new();
+    private readonly List<(double Noise, (int Node, double[] Twist)[] Parts)> _known = new();
     private readonly List<int>[] _knownOf;
     private readonly Dictionary<int, int> _left = new();
     private readonly List<IdleFreedom> _found = new();
@@ -141,9 +145,11 @@ internal sealed class IdleFreedoms
         }
 
         int found = 0;
-        foreach (double[] twist in ThatGoOn(nodes, twists, cancellation))
+        List<double[]> going = ThatGoOn(nodes, twists, cancellation);
+        double noise = going.Count < twists.Count ? CurvedNoise : Math.Sqrt(Tolerance(edge));
+        foreach (double[] twist in going)
         {
-            found += IsNew(nodes, twist) ? 1 : 0; // a ram's spin is that of its tube and of its piston, if these turn
+            found += IsNew(nodes, twist, noise) ? 1 : 0; // a ram's spin is that of its tube and of its piston, if these turn
         }
 
         if (found > 0)
@@ -229,7 +235,7 @@ internal sealed class IdleFreedoms
         }
 
         // Beside a steep rack a motion that is known exactly may be a small share of all that move.
-        return new SingularValues(moved).Rank(loop.Finite < loop.FirstOrder ? New : Math.Max(Sure, loop.Here.Noise));
+        return new SingularValues(moved).Rank(loop.Finite < loop.FirstOrder ? Curved : Math.Max(Sure, loop.Here.Noise));
 
         int BodyOf(int node) => _graph.Members[node].Count == 0 ? -1 : loop.Part.IndexOf(_graph.Members[node][0]);
     }
@@ -290,7 +296,9 @@ internal sealed class IdleFreedoms
         return pairs.ConvertAll(pair => (edges[pair.First], edges[pair.First + pair.Distance]));
     }
 
-    private bool IsNew(List<int> nodes, double[] twist)
+    // Whether more is left of a motion beside those known than may be wrong in it; then it is known. What is wrong in the known ones is as
+    // much larger in it as little was left of them: the spins of two nuts on a screw of small lead differ by little, and are two.
+    private bool IsNew(List<int> nodes, double[] twist, double noise)
     {
         var motion = new Dictionary<int, double[]>();
         var beside = new SortedSet<int>();
@@ -302,24 +310,7 @@ internal sealed class IdleFreedoms
 
         foreach (int known in beside)
         {
-            double along = 0;
-            foreach ((int node, double[] part) in _known[known])
-            {
-                along += motion.TryGetValue(node, out double[]? own) ? DenseVector.Dot(own, part) : 0;
-            }
-
-            foreach ((int node, double[] part) in _known[known])
-            {
-                if (!motion.TryGetValue(node, out double[]? own))
-                {
-                    motion.Add(node, own = new double[6]);
-                }
-
-                for (int i = 0; i < 6; i++)
-                {
-                    own[i] -= along * part[i];
-                }
-            }
+            noise += Math.Abs(RemoveAlong(motion, _known[known].Parts)) * _known[known].Noise;
         }
 
         double rest = 0;
@@ -329,7 +320,7 @@ internal sealed class IdleFreedoms
         }
 
         rest = Math.Sqrt(rest);
-        if (rest <= New)
+        if (rest <= New * noise)
         {
             return false;
         }
@@ -342,8 +333,30 @@ internal sealed class IdleFreedoms
             (_knownOf[node] ??= new List<int>()).Add(_known.Count);
         }
 
-        _known.Add(left.ToArray());
+        _known.Add((noise / rest, left.ToArray()));
         return true;
+    }
+
+    // How much of a motion is along another one, of unit length, which is taken out of it.
+    private static double RemoveAlong(Dictionary<int, double[]> motion, (int Node, double[] Twist)[] other)
+    {
+        double along = 0;
+        foreach ((int node, double[] part) in other)
+        {
+            along += motion.TryGetValue(node, out double[]? own) ? DenseVector.Dot(own, part) : 0;
+        }
+
+        foreach ((int node, double[] part) in other)
+        {
+            if (!motion.TryGetValue(node, out double[]? own))
+            {
+                motion.Add(node, own = new double[Width]);
+            }
+
+            DenseVector.Add(own, -along, part);
+        }
+
+        return along;
     }
 
     // What of the twists of some nodes is a finite motion of theirs, as one, while all others stand still: joints may leave a twist to first

@@ -13,7 +13,8 @@ internal sealed class FineClosing
     // Up to so many freedoms singular values are taken.
     private const int Few = 20;
 
-    // Singular values below this share of the largest take no part in a step.
+    // Singular values below this share of the largest, or of a row's unit where that is larger, take no part in a step: where a joint holds
+    // nothing of what the others leave, all of its rows are a rounding.
     private const double Cut = 1e-10;
 
     // Error that is rounding. Times what a state is closed to up to which another came back onto the joints beyond doubt, and beyond which
@@ -63,7 +64,8 @@ internal sealed class FineClosing
     /// <summary>Whether the last Close may have led to a pose of the mechanism.</summary>
     public bool IsClosed => Worst <= (IsFew ? Stuck * _goal : _newton.Accepted);
 
-    private bool IsFew => Closing.Length <= Few;
+    /// <summary>Whether the freedoms are few enough for singular values.</summary>
+    public bool IsFew => Closing.Length <= Few;
 
     /// <summary>Brings a state onto the joints as near as it goes; whether that may be a pose of them.</summary>
     public bool Close(MechanismState state)
@@ -164,7 +166,7 @@ internal sealed class FineClosing
     private static double[] Along(SingularValues values, double[,] matrix, double[] errors)
     {
         int columns = values.Values.Length;
-        var along = new double[columns == 0 ? 0 : values.Rank(Cut * values.Values[0])];
+        var along = new double[columns == 0 ? 0 : values.Rank(Cut * Math.Max(1, values.Values[0]))];
         for (int k = 0; k < along.Length; k++)
         {
             for (int r = 0; r < errors.Length; r++)

@@ -34,15 +34,15 @@ internal sealed class TrialSteps
     private readonly MechanismState _moved;
     private readonly List<double[]> _motions = new();
 
-    /// <summary>From a closed state.</summary>
-    public TrialSteps(NewtonSolver newton, FineClosing closing, VelocitySpace space, MechanismState state, CancellationToken cancellation)
+    /// <summary>Of velocities at a closed state, orthonormal.</summary>
+    public TrialSteps(NewtonSolver newton, FineClosing closing, IReadOnlyList<double[]> velocities, MechanismState state, CancellationToken cancellation)
     {
         _newton = newton;
         _closing = closing;
         _cancellation = cancellation;
         _from = state;
         _moved = state.Clone();
-        IsSure = Try(space.Basis);
+        IsSure = Try(velocities);
     }
 
     /// <summary>Orthonormal directions of motions: where branches of motions meet, of all of them.</summary>

@@ -28,9 +28,12 @@ ALONE = 1e-12
 """How far the cosine between two joints' twists, squared, may be from 1."""
 SURE = 1e-6
 """Share of an exactly known motion up to which a block has no part in it."""
-SOME = 1e-2
-"""The same where velocities are obstructed, since motions are known to a step's curvature there; and length of a motion beside those
-already found from which it is another one."""
+CURVED = 1e-2
+"""The same where velocities are obstructed, since motions are known to a step's curvature there."""
+CURVED_NOISE = 1e-3
+"""What may be wrong in a twist that is taken from such a motion."""
+NEW = 10.0
+"""Times what may be wrong in a motion, beyond which what is left of it beside those already found makes another one of it."""
 NEAR = 4e-6
 """Difference of two unit twists, along any direction, beyond which they are not shared up to ``ALONE``."""
 ASLANT = np.array([0.37, 0.43, 0.29, 0.53, 0.41, 0.39])
@@ -66,8 +69,8 @@ class _Search:
     """bodies: of each node, bodies that nothing lets move against each other.  twists: orthonormal, shape (6, n), by which
     the two nodes of each edge may move against each other, all about one ``point``.  part: of each edge, of ``freedoms``.
     coupled: of each row over several pairs, by the nodes of each of its atoms, what a twist of the second adds to it, shape
-    (6,).  left: freedoms of each block of joints that are not known to be idle.  known: motions found, by node, orthonormal; known_of:
-    those in which a node moves.
+    (6,).  left: freedoms of each block of joints that are not known to be idle.  known: motions found, by node, orthonormal, and what
+    may be wrong in each; known_of: those in which a node moves.
     """
 
     assembly: Assembly
@@ -78,7 +81,7 @@ class _Search:
     coupled: list[list[tuple[int, int, Array]]]
     point: Array
     left: dict[int, int]
-    known: list[dict[int, Array]] = field(default_factory=list[dict[int, Array]])
+    known: list[tuple[dict[int, Array], float]] = field(default_factory=list[tuple[dict[int, Array], float]])
     known_of: dict[int, list[int]] = field(default_factory=dict[int, list[int]])
 
     def tolerance(self, edge: int) -> float:
@@ -129,8 +132,9 @@ class _Search:
             return
         bodies = sorted(body for node in nodes for body in self.bodies[node])
         # the joints may leave a twist to first order alone, as a slot across does
-        twists = _that_go_on(self.assembly, bodies, twists, self.point)
-        count = sum(self._is_new(nodes, twist) for twist in twists.T)  # a ram's spin is that of its tube and its piston, if these turn
+        going = _that_go_on(self.assembly, bodies, twists, self.point)
+        noise = CURVED_NOISE if going.shape[1] < twists.shape[1] else float(np.sqrt(self.tolerance(edge)))
+        count = sum(self._is_new(nodes, twist, noise) for twist in going.T)  # a ram's spin is that of its tube and its piston, if these turn
         if count:
             self.left[block] -= count
             yield IdleFreedom(tuple(sorted(n for body in bodies for n in self.assembly.nodes[body])), count)
@@ -144,20 +148,24 @@ class _Search:
                 twists = twists @ np.linalg.svd(rates[None])[2][1:].T
         return twists
 
-    def _is_new(self, nodes: list[int], twist: Array) -> bool:
-        """Whether a motion is none of those known; then it is from now on."""
+    def _is_new(self, nodes: list[int], twist: Array, noise: float) -> bool:
+        """Whether more is left of a motion beside those known than may be wrong in it; then it is known from now on.
+
+        What is wrong in the known ones is as much larger in it as little was left of them: the spins of two nuts on a screw of small
+        lead differ by little, and are two."""
         motion = {node: twist / np.sqrt(len(nodes)) for node in nodes}
         for number in sorted({k for node in nodes for k in self.known_of.get(node, [])}):
-            other = self.known[number]
+            other, its_noise = self.known[number]
             along = sum(float(motion[node] @ own) for node, own in other.items() if node in motion)
+            noise += abs(along) * its_noise
             for node, own in other.items():
                 motion[node] = motion.get(node, 0.0) - along * own
-        rest = np.sqrt(sum(float(own @ own) for own in motion.values()))
-        if rest <= SOME:
+        rest = float(np.sqrt(sum(float(own @ own) for own in motion.values())))
+        if rest <= NEW * noise:
             return False
         for node in motion:
             self.known_of.setdefault(node, []).append(len(self.known))
-        self.known.append({node: own / rest for node, own in motion.items()})
+        self.known.append(({node: own / rest for node, own in motion.items()}, noise / rest))
         return True
 
 
@@ -207,7 +215,7 @@ def _freedoms_of_blocks(
             at_rest = np.zeros((1, 6, count))
             own = np.concatenate([twists, at_rest])[[place.get(bodies[node][0], -1) for node in nodes]]
             # beside a steep rack a motion that is known exactly may be a small share of all that move
-            some = SOME if finite.singular else max(SURE, freedom.noise)
+            some = CURVED if finite.singular else max(SURE, freedom.noise)
             count = int(np.linalg.matrix_rank((own - own[:1]).reshape(-1, count), tol=some))
         found[block] = count if count > 1 else 0
     return found

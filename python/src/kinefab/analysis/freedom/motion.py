@@ -13,11 +13,12 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from ...spatial import Array
-from ..equations.solve import Solver
+from ..equations.solve import FEW, Solver
 from ..equations.system import State
 from .first_order import BlockFreedom, block_freedoms
 from .noise import moves_up_to_noise
 from .probes import OPEN, STEP, WHOLE, floor_of, kept_of, left_of, random_direction, trial
+from .second_order import second_order
 from .stacks import alike
 
 SURVIVES = 5.0
@@ -49,6 +50,10 @@ BESIDE = 10.0
 """Times the error asked for up to which a trial step came back onto the rows."""
 MIXTURES = 3
 """Of motions: by chance one in eight lies so near a single branch that it keeps all but a tenth of itself."""
+MOST_FORMS = 1_000_000
+"""Squares of directions, times unknowns, up to which what second order leaves of many bodies' velocities is worth its time."""
+WAYS = 3
+"""Of many bodies, from the start pose, while fewer motions are found than it has directions: the largest branch counts."""
 WALK = 3
 WALK_STEP = 0.05
 NOISY_GAP = 1e10
@@ -168,6 +173,10 @@ def _searched(solver: Solver, part: int, first_order: BlockFreedom) -> FiniteFre
     solver, part = Solver(solver.alone(part), cautious=True), 0
     first_order = replace(first_order, bodies=np.arange(1, solver.system.bodies))
     start = solver.system.start()
+    if len(first_order.basis) > FEW and first_order.mobility**2 * len(first_order.basis) <= MOST_FORMS:
+        of_many = _of_many(solver, first_order, start)
+        if of_many is not None:
+            return of_many
     away = walked(solver, part, first_order, start)
     there = block_freedoms(solver, away)
     if there[part].mobility * len(first_order.basis) > MOST_WORK:
@@ -189,6 +198,37 @@ def _searched(solver: Solver, part: int, first_order: BlockFreedom) -> FiniteFre
     return FiniteFreedom(tangent.shape[1], here if here.shape[1] == tangent.shape[1] else tangent, True)
 
 
+def _of_many(solver: Solver, first_order: BlockFreedom, start: State) -> FiniteFreedom | None:
+    """As ``_searched``, of a solver's only part of many bodies: only velocities are tried that second order leaves.  Where it
+    obstructs many at once, steps along mixtures lead back to where they began.  None where it stays in doubt what moves."""
+    floor, found = floor_of(solver, start), np.zeros((len(first_order.basis), 0))
+    here = second_order(solver, first_order, start)
+    most = max(1, here.basis(np.random.default_rng(WAYS)).shape[1])
+    for seed in range(WAYS):
+        if found.shape[1] >= most:
+            break
+        draw = np.random.default_rng(seed)
+        freedom, left, state, tangent = first_order, here, start, found[:, :0]
+        for step in range(WALK + MOST_FURTHER):
+            if step >= WALK:
+                tried = replace(freedom, basis=left.basis(draw))
+                tangent, is_sure = tried.basis, True
+                if tried.mobility:
+                    ways, share, _ = kept_of(solver, 0, tried, state, LONG_STEP)
+                    tangent, is_sure = ways[:, share > HALF], not np.any((share > DIRECTION) & (share < WHOLE))
+                if is_sure and _mixtures_move(solver, 0, freedom, state, tangent, LONG_STEP, floor_of(solver, state)):
+                    break
+                if step == WALK + MOST_FURTHER - 1:
+                    return None
+            twist = (WALK_STEP if step < WALK else FURTHER) * left.one(draw).reshape(-1, 6)
+            there, open_ = solver.project(solver.system.moved(state, first_order.bodies, twist), None, floor)
+            if open_[0] <= OPEN * floor[0]:
+                state, freedom = there, block_freedoms(solver, there)[0]
+                left = second_order(solver, freedom, state)
+        found = tangent if tangent.shape[1] > found.shape[1] else found
+    return FiniteFreedom(found.shape[1], found, True)
+
+
 def _beyond_doubt(solver: Solver, part: int, freedom: BlockFreedom, state: State, floor: Array) -> Array:
     """As ``_survivors``; while some velocity keeps a part of itself only, as where two branches of motions touch each other, from
     poses further away.  floor: of the pose where the walk to the state began."""
@@ -206,7 +246,24 @@ def _beyond_doubt(solver: Solver, part: int, freedom: BlockFreedom, state: State
         ways, share = ways[:, share > DIRECTION], share[share > DIRECTION]
         if not np.any(share < WHOLE) and _mixtures_move(solver, part, freedom, state, ways, step, floor):
             return ways
-    return ways[:, share > HALF]
+    ways = ways[:, share > HALF]
+    return ways if np.any(share < WHOLE) else _largest_branch(solver, part, freedom, state, ways, step, floor)
+
+
+def _largest_branch(
+    solver: Solver, part: int, freedom: BlockFreedom, state: State, ways: Array, step: float, floor: Array
+) -> Array:
+    """Of directions, shape (6 n, m), that are motions each, those that one branch has: the most found whose mixtures are motions too.
+    Steps along mixtures lead back to where branches cross."""
+    count, largest = ways.shape[1], list[int]()
+    for first in range(count):
+        branch = [first]
+        for k in range(1, count):
+            more = [*branch, (first + k) % count]
+            if _mixtures_move(solver, part, freedom, state, ways[:, more], step, floor):
+                branch = more
+        largest = branch if len(branch) > len(largest) else largest
+    return ways[:, largest]
 
 
 def _mixtures_move(

@@ -32,7 +32,7 @@ FIRST_DAMPING, LEAST_DAMPING, MOST_DAMPING, DAMPING_FACTOR = 1e-3, 1e-14, 1e6, 1
 LEAST_LENGTH = 1e-6
 """What has to be left of a start beside others."""
 SPARE = 16
-"""Starts tried one after another that lead nowhere, as two in three may where branches are many: then there is nothing more."""
+"""Starts tried one after another that lead nowhere, as many do where branches are many: then there is nothing more."""
 
 
 @dataclass(slots=True, eq=False)

@@ -114,20 +114,23 @@ internal sealed class MachineSceneTests
         Assert.That(course.Stops, Is.Zero);
     }
 
-    /// <summary>The speed of a joint with a drive without limit of force when a blow throws it back: held at once, where before it went with the blow.</summary>
+    /// <summary>Ever smaller bounces against a drive without limit of force end at once: the joint rests at its stop, whatever that would throw back.</summary>
     [Test]
     public void Step_DriveAgainstABouncingStop_StaysThere()
     {
+        const int struck = 34, left = 60;
+        const double stop = 10.9;
         var scene = new MachineScene(84);
         World world = scene.Build();
-        for (int i = 1; i <= 60; i++)
+        for (int i = 1; i <= left; i++)
         {
             scene.Before(world, i * scene.Step, scene.Step);
             world.Step(scene.Step);
+            if (i > struck)
+            {
+                Assert.That(world.Joints[0].Coordinate(Kinefab.Document.Coordinate.Angle), Is.EqualTo(stop).Within(0.1), $"step {i}");
+            }
         }
-
-        Assert.That(world.Joints[0].Coordinate(Kinefab.Document.Coordinate.Angle), Is.EqualTo(10.9).Within(0.1));
-        Assert.That(world.Findings.Diagnostics.Any(found => found.Code == DiagnosticCodes.DriveStalled), Is.True);
     }
 
     private static Course Run(int seed, int steps, int finer)

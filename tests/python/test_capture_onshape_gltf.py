@@ -258,6 +258,16 @@ def test_a_broken_file_is_refused_not_followed(binary):
             pass
 
 
+@pytest.mark.parametrize("damage", [b"\x01\x00\xa0\x7f", b"\x00\x00\x80\xff"])
+def test_a_corner_that_is_nowhere_is_refused(damage):
+    """A signalling NaN, of which numpy warned on some machines, and an infinite one: both were taken for places."""
+    sound = bytearray(exported(POINTS, FACES, TWO, True))
+    at = sound.index(np.asarray(POINTS, np.float32)[-1:].tobytes())
+    sound[at : at + 4] = damage
+    with pytest.raises(ValueError, match="no number"):
+        read_gltf(bytes(sound))
+
+
 def test_saved_gltf_is_a_source_with_its_looks(tmp_path):
     values = machine("mm", "Z")
     for word, answer in answers(described(values)).items():

@@ -180,7 +180,10 @@ def _numbers(document: Json, buffers: list[bytes], index: int, wanted: str) -> A
     entry = document["accessors"][index]
     if entry["type"] != wanted or entry["componentType"] != FLOAT:
         raise ValueError(f"an accessor is no {wanted} of floats")
-    return _values(document, buffers, entry).astype(float)
+    values = _values(document, buffers, entry)
+    if not np.isfinite(values).all():
+        raise ValueError(f"an accessor of type {wanted} has what is no number")
+    return values.astype(float)
 
 
 def _values(document: Json, buffers: list[bytes], entry: Json) -> Array:

@@ -100,49 +100,24 @@ internal sealed class Substep
         SetLength(h);
         scalars.BeginPart();
         double left = h;
-        bool isAgain = false;
-        for (int blows = 0; ; blows += isAgain ? 0 : 1)
+        for (int blows = 0; ; blows++)
         {
-            if (isAgain)
+            scalars.LocatesEvents = blows < MaxBlows;
+            scalars.BeginPiece();
+            _pieceStart.Save(_batch);
+            Array.Copy(_batch.VelocityImpulses, _guess, _guess.Length);
+            _guessLength = _length;
+            if (!TryPiece(left, tolerance, out double piece))
             {
-                ReturnToPieceStart(left);
-            }
-            else
-            {
-                scalars.LocatesEvents = blows < MaxBlows;
-                scalars.BeginPiece();
-                _pieceStart.Save(_batch);
-                Array.Copy(_batch.VelocityImpulses, _guess, _guess.Length);
-                _guessLength = _length;
-            }
-
-            if (!TryDriftFromPieceStart(left, tolerance))
-            {
-                HasFailedAtEvent = _converged[0] || blows > 0;
+                HasFailedAtEvent |= blows > 0;
                 return false;
             }
 
-            double passed = scalars.NearestApart();
-            if (passed >= -MostPassed * tolerance)
+            if (piece == left)
             {
                 return Complete(left, h, tolerance);
             }
 
-            // None where a pose so far off has no number for it.
-            int first = scalars.FirstReached(left);
-            if (first < 0 || !TryReach(left, passed, scalars.Row(first), tolerance, out double piece))
-            {
-                isAgain = first >= 0 && scalars.HoldBack(first, tolerance);
-                if (!isAgain)
-                {
-                    HasFailedAtEvent = true;
-                    return false;
-                }
-
-                continue;
-            }
-
-            isAgain = false;
             if (!Complete(piece, h, tolerance))
             {
                 HasFailedAtEvent = true;
@@ -245,6 +220,40 @@ internal sealed class Substep
 
         Array.Clear(_batch.VelocityImpulses, 0, _batch.VelocityImpulses.Length);
         return IsFinite();
+    }
+
+    // The drift of the rest of a part, or as much of it as leads to the first limit on its way.
+    private bool TryPiece(double left, double tolerance, out double piece)
+    {
+        ActiveSet<ScalarLane> scalars = _batch.ActiveSet!;
+        piece = left;
+        if (!TryDriftFromPieceStart(left, tolerance))
+        {
+            HasFailedAtEvent = _converged[0];
+            return false;
+        }
+
+        double passed = scalars.NearestApart();
+        if (passed >= -MostPassed * tolerance)
+        {
+            return true;
+        }
+
+        // None where a pose so far off has no number for it.
+        int first = scalars.FirstReached(left);
+        if (first >= 0 && TryReach(left, passed, scalars.Row(first), tolerance, out piece))
+        {
+            return true;
+        }
+
+        if (first >= 0 && scalars.HoldBack(first, tolerance))
+        {
+            ReturnToPieceStart(left);
+            return TryPiece(left, tolerance, out piece);
+        }
+
+        HasFailedAtEvent = true;
+        return false;
     }
 
     // The drift as long as leads to the first limit on its way: the least C of those that are apart, by Chandrupatla's rule, which takes the inverse

@@ -27,7 +27,7 @@ internal sealed class SecondOrder
     private const int Refinements = 2;
     private const double Damping = 1e-12;
 
-    // Mixtures tried one after another that lead nowhere, as two in three may where branches are many: then there is nothing more to find.
+    // Mixtures tried one after another that lead nowhere, as many do where branches are many: then there is nothing more to find.
     private const int Spare = 16;
 
     private readonly VelocitySpace _space;
@@ -45,9 +45,6 @@ internal sealed class SecondOrder
             Collect(newton, state, moved);
         }
     }
-
-    /// <summary>Whether second order leaves all velocities of the pose.</summary>
-    public bool LeavesAll => _curved is null;
 
     /// <summary>
     /// Orthonormal velocities that second order leaves: all of the pose where it does, else found one by one, each beside those before it. Where

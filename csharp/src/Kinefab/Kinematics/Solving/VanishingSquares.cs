@@ -21,8 +21,15 @@ internal sealed class VanishingSquares
 
     private readonly List<double[,]> _forms;
 
+    // Of a step's equations, which are dense.
+    private readonly BlockPattern _pattern;
+
     /// <summary>Of symmetric matrices, one at least and all as large.</summary>
-    public VanishingSquares(List<double[,]> forms) => _forms = forms;
+    public VanishingSquares(List<double[,]> forms)
+    {
+        _forms = forms;
+        _pattern = new BlockPattern(new[] { forms[0].GetLength(0) }, Array.Empty<(int, int)>());
+    }
 
     /// <summary>Weights near a start; null where that leads to none.</summary>
     /// <param name="start">Used up; of any length.</param>
@@ -107,10 +114,10 @@ internal sealed class VanishingSquares
     }
 
     // A damped least-squares step, along the sphere and at right angles to others.
-    private static double[] Stepped(double[] weights, double[] values, double[][] slopes, IReadOnlyList<double[]> beside, double damping)
+    private double[] Stepped(double[] weights, double[] values, double[][] slopes, IReadOnlyList<double[]> beside, double damping)
     {
         int n = weights.Length;
-        var normal = new double[n, n];
+        var normal = new double[_pattern.Length];
         var right = new double[n];
         for (int f = 0; f < slopes.Length; f++)
         {
@@ -126,55 +133,19 @@ internal sealed class VanishingSquares
             {
                 for (int j = 0; slope[i] != 0 && j <= i; j++)
                 {
-                    normal[i, j] += slope[i] * slope[j];
+                    normal[i * n + j] += slope[i] * slope[j];
                 }
             }
         }
 
         for (int i = 0; i < n; i++)
         {
-            normal[i, i] += damping;
+            normal[i * n + i] += damping;
         }
 
-        Solve(normal, right);
+        BlockCholesky<ScalarLane>.Factor(_pattern, normal);
+        BlockCholesky<ScalarLane>.Solve(_pattern, normal, right);
         DenseVector.Add(right, 1, weights);
         return right;
-    }
-
-    // By Cholesky's factors, of the lower half of a matrix, which is used up.
-    private static void Solve(double[,] matrix, double[] right)
-    {
-        int n = right.Length;
-        for (int j = 0; j < n; j++)
-        {
-            for (int i = j; i < n; i++)
-            {
-                double sum = matrix[i, j];
-                for (int k = 0; k < j; k++)
-                {
-                    sum -= matrix[i, k] * matrix[j, k];
-                }
-
-                // No pivot is less than the damping but by rounding.
-                matrix[i, j] = i == j ? Math.Sqrt(Math.Max(sum, LeastDamping)) : sum / matrix[j, j];
-            }
-
-            for (int k = 0; k < j; k++)
-            {
-                right[j] -= matrix[j, k] * right[k];
-            }
-
-            right[j] /= matrix[j, j];
-        }
-
-        for (int i = n - 1; i >= 0; i--)
-        {
-            for (int k = i + 1; k < n; k++)
-            {
-                right[i] -= matrix[k, i] * right[k];
-            }
-
-            right[i] /= matrix[i, i];
-        }
     }
 }

@@ -183,6 +183,9 @@ internal struct ScalarRow
     /// <summary>Whether it is there and a motor or prescribed motion whose force has no bound to a side: a spring's follows from where it is.</summary>
     public readonly bool IsEndlessDrive => IsActive && Built.Has(RowFlags.Drive) && !Built.Has(RowFlags.Spring) && IsEndless;
 
+    /// <summary>Whether it asks for a speed in this step: a motor, or a prescribed motion.</summary>
+    public readonly bool AsksForSpeed => Kind is RowKind.SpeedMotor or RowKind.Motion;
+
     /// <summary>Whether it has none to either side, so that a motor keeps its speed whatever strikes.</summary>
     public readonly bool HoldsThroughBlows => Math.Min(Built.Maximum, -Built.Minimum) > Endless;
 

@@ -115,7 +115,7 @@ internal sealed partial class ActiveSet<V>
         for (int i = 0; i < _rows.Length; i++)
         {
             ref ScalarRow scalar = ref _rows[i];
-            if (!scalar.IsEndlessDrive || scalar.IsHeld || scalar.Kind is not (RowKind.SpeedMotor or RowKind.Motion))
+            if (!scalar.IsEndlessDrive || scalar.IsHeld || !scalar.AsksForSpeed)
             {
                 continue;
             }

@@ -119,7 +119,7 @@ internal sealed partial class ActiveSet<V>
                 scalar.StartSpeed = isSpent ? 0 : StartSpeed(scalar);
                 scalar.State = scalar.Built.GeometricError - scalar.Allowed <= reach ? RowState.Free : RowState.AtBound;
             }
-            else if (scalar.Kind is RowKind.SpeedMotor or RowKind.Motion && scalar.HoldsThroughBlows && !scalar.IsHeld)
+            else if (scalar.AsksForSpeed && scalar.HoldsThroughBlows && !scalar.IsHeld)
             {
                 // One that stalls pushes back at once what would throw it back.
                 scalar.StartSpeed = StartSpeed(scalar);
@@ -140,11 +140,11 @@ internal sealed partial class ActiveSet<V>
     /// </summary>
     public bool YieldDrives()
     {
-        bool isAny = false, isMissed = HasMissedSpeed();
+        bool isAny = false, isMissed = HoldsDrives() && HasMissedSpeed();
         for (int i = 0; i < _rows.Length && isMissed; i++)
         {
             ref ScalarRow scalar = ref _rows[i];
-            bool yields = scalar.State == RowState.Free && scalar.Kind is RowKind.SpeedMotor or RowKind.Motion
+            bool yields = scalar.State == RowState.Free && scalar.AsksForSpeed
                 && (!HasTargetSpeed(scalar) || scalar.ImpulseSecondHalf < scalar.Low || scalar.ImpulseSecondHalf > scalar.High);
             scalar.State = yields ? RowState.AtBound : scalar.State;
             isAny |= yields;
@@ -161,23 +161,25 @@ internal sealed partial class ActiveSet<V>
         return isAny;
     }
 
+    /// <summary>Whether a drive that asks for a speed is held in the projection.</summary>
+    public bool HoldsDrives() => Array.Exists(_rows, row => row.State == RowState.Free && row.AsksForSpeed);
+
     // Rows that leave each other no speed are solved as if they were soft: they miss theirs by as much as they differ.
     private bool HasMissedSpeed()
     {
+        bool isMissed = false;
         double fastest = 0;
-        bool hasDrive = false, isMissed = false;
-        for (int i = 0; i < _rows.Length; i++)
+        for (int i = 0; i < _rows.Length && !isMissed; i++)
         {
             ref ScalarRow scalar = ref _rows[i];
             bool isFree = scalar.State == RowState.Free;
-            hasDrive |= isFree && scalar.Kind is RowKind.SpeedMotor or RowKind.Motion;
-            isMissed |= isFree && !HasTargetSpeed(scalar);
+            isMissed = isFree && !HasTargetSpeed(scalar);
             fastest = isFree ? Math.Max(fastest, Math.Abs(scalar.StartSpeed)) : fastest;
         }
 
-        if (!hasDrive || isMissed)
+        if (isMissed)
         {
-            return hasDrive;
+            return true;
         }
 
         Impulses<V>.NegativeSpeeds(_batch);

@@ -18,7 +18,7 @@ internal sealed partial class ActiveSet<V>
             _batch.VelocityImpulses[scalar.Index] = 0;
             scalar.ImpulseSecondHalf = 0;
             scalar.IsStalled = scalar.IsHeld ? scalar.IsActive && !IsMoved(scalar, tolerance)
-                : scalar.Kind is RowKind.SpeedMotor or RowKind.Motion && scalar.State == RowState.AtBound && scalar.IsEndless;
+                : scalar.AsksForSpeed && scalar.State == RowState.AtBound && scalar.IsEndless;
             if (!scalar.IsActive || scalar.Kind == RowKind.None)
             {
                 scalar.State = RowState.AtBound;

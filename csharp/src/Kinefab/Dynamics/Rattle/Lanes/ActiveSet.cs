@@ -92,7 +92,7 @@ internal sealed partial class ActiveSet<V>
                 scalar.SetMotion(h);
             }
 
-            if (scalar.Kind is RowKind.SpeedMotor or RowKind.Motion && scalar.IsEndless)
+            if (scalar.AsksForSpeed && scalar.IsEndless)
             {
                 scalar.BoundForce(MostNeeded(scalar, h));
             }

@@ -15,7 +15,7 @@ internal sealed class LimitedScene
 {
     private const int MostBodies = 6;
 
-    private readonly Random _random;
+    private readonly Draw _draw;
     private readonly MechanismBuilder _builder = new();
     private readonly List<RevoluteJoint> _hinges = new();
     private readonly List<Pose> _poses = new();
@@ -24,12 +24,12 @@ internal sealed class LimitedScene
 
     public LimitedScene(int seed)
     {
-        _random = new Random(seed);
-        Step = Power(-3, -1.5);
-        int bodies = _random.Next(1, MostBodies + 1);
+        _draw = new Draw(seed);
+        Step = _draw.Power(-3, -1.5);
+        int bodies = _draw.From(1, MostBodies + 1);
         for (int i = 0; i < bodies; i++)
         {
-            int parent = One(4) ? _random.Next(-1, i) : i - 1;
+            int parent = _draw.One(4) ? _draw.From(-1, i) : i - 1;
             AddBody(parent, out Vector3d point);
             if (!_isDriven[i])
             {
@@ -37,19 +37,19 @@ internal sealed class LimitedScene
             }
         }
 
-        if (One(6) && bodies > 2 && !_isDriven.Contains(true))
+        if (_draw.One(6) && bodies > 2 && !_isDriven.Contains(true))
         {
             // A loop: as it stands it is closed.
             AddJoint(-1, bodies - 1, _poses[^1].Point(Inside(bodies - 1)));
         }
 
-        if (_hinges.Count > 1 && One(3))
+        if (_hinges.Count > 1 && _draw.One(3))
         {
             AddCoupling();
         }
 
         System = _builder.Build();
-        if (One(4))
+        if (_draw.One(4))
         {
             // Without a start that the joints forbid.
             Array.Clear(System.Bodies.LinearVelocities, 0, bodies);
@@ -107,24 +107,24 @@ internal sealed class LimitedScene
     // A box of a material between foam and lead, hung by a point of itself on a point of its parent.
     private void AddBody(int parent, out Vector3d point)
     {
-        double mass = Power(-3, 3);
-        double width = One(4) ? Power(-2.5, -1) : Between(0.2, 1);
-        double depth = width * Between(0.5, 1);
-        double size = Math.Cbrt(mass / (8 * Power(2, 4) * width * depth));
+        double mass = _draw.Power(-3, 3);
+        double width = _draw.One(4) ? _draw.Power(-2.5, -1) : _draw.Between(0.2, 1);
+        double depth = width * _draw.Between(0.5, 1);
+        double size = Math.Cbrt(mass / (8 * _draw.Power(2, 4) * width * depth));
         var half = new Vector3d(size, size * width, size * depth);
         _halves.Add(half);
         Vector3d square = Vector3d.Scale(half, half) * (mass / 3);
-        point = parent < 0 ? Vector(1) : _poses[parent].Point(Inside(parent));
-        Quaterniond turn = Turn();
+        point = parent < 0 ? _draw.Vector(1) : _poses[parent].Point(Inside(parent));
+        Quaterniond turn = _draw.Turn();
         BodyDefinition d = BodyDefinition.Default;
         d.Pose = new Pose(point - turn * Inside(_halves.Count - 1), turn);
         d.Mass = mass;
         d.Inertia = new Vector3d(square.Y + square.Z, square.X + square.Z, square.X + square.Y);
-        d.LinearVelocity = Vector(One(8) ? 20 : 2);
-        d.AngularVelocity = Vector(One(8) ? 100 : 5);
+        d.LinearVelocity = _draw.Vector(_draw.One(8) ? 20 : 2);
+        d.AngularVelocity = _draw.Vector(_draw.One(8) ? 100 : 5);
         d.MaxAngularSpeed = 1e4;
-        d.AngularDamping = One(3) ? 0.05 : 0;
-        d.IsKinematic = One(15);
+        d.AngularDamping = _draw.One(3) ? 0.05 : 0;
+        d.IsKinematic = _draw.One(15);
         _isDriven.Add(d.IsKinematic);
         if (d.IsKinematic)
         {
@@ -138,35 +138,35 @@ internal sealed class LimitedScene
     }
 
     // One in ten anchors is out of the body.
-    private Vector3d Inside(int body) => Vector3d.Scale(Vector(1), _halves[body]) + (One(10) ? Vector(0.3) : Vector3d.Zero);
+    private Vector3d Inside(int body) => Vector3d.Scale(_draw.Vector(1), _halves[body]) + (_draw.One(10) ? _draw.Vector(0.3) : Vector3d.Zero);
 
     private void AddJoint(int body0, int body1, Vector3d point)
     {
-        Vector3d x = Vector(1).Normalized();
+        Vector3d x = _draw.Vector(1).Normalized();
         Vector3d y = Vector3d.Perpendicular(x);
-        JointModel joint = One(2) ? Hinge() : SixAxes();
+        JointModel joint = _draw.One(2) ? Hinge() : SixAxes();
         joint.DriveLimitsAreForces = true;
         _builder.Add(joint, body0, body1, new Pose(point, Quaterniond.FromAxes(x, y, Vector3d.Cross(x, y))));
-        if (One(12))
+        if (_draw.One(12))
         {
-            joint.BreakForce = Power(0, 4);
-            joint.BreakTorque = Power(-1, 3);
+            joint.BreakForce = _draw.Power(0, 4);
+            joint.BreakTorque = _draw.Power(-1, 3);
         }
     }
 
-    private void AddCoupling() => _builder.Couple(_hinges[^1], (_hinges[0], Between(-3, 3)));
+    private void AddCoupling() => _builder.Couple(_hinges[^1], (_hinges[0], _draw.Between(-3, 3)));
 
     private RevoluteJoint Hinge()
     {
-        bool hasMotor = One(6);
+        bool hasMotor = _draw.One(6);
         IsPassive &= !hasMotor;
         var hinge = new RevoluteJoint
         {
-            LimitEnabled = !One(4),
+            LimitEnabled = !_draw.One(4),
             Limit = Range(),
             MotorEnabled = hasMotor,
-            MotorVelocity = Between(-20, 20),
-            MotorForceLimit = Power(-1, 3),
+            MotorVelocity = _draw.Between(-20, 20),
+            MotorForceLimit = _draw.Power(-1, 3),
             Spring = Spring(3),
         };
         _hinges.Add(hinge);
@@ -176,18 +176,18 @@ internal sealed class LimitedScene
     // Gears and springs of twist and swing have no potential of their C.
     private D6Joint SixAxes()
     {
-        bool isBall = One(2);
+        bool isBall = _draw.One(2);
         var joint = new D6Joint
         {
             X = Motion(isBall), Y = Motion(isBall), Z = Motion(isBall),
             Twist = Motion(false), Swing1 = Motion(false), Swing2 = Motion(false),
-            LinearLimit = new LinearLimit { Value = One(4) ? Power(-5, -2) : Between(0.01, 0.5), Response = Response() },
+            LinearLimit = new LinearLimit { Value = _draw.One(4) ? _draw.Power(-5, -2) : _draw.Between(0.01, 0.5), Response = Response() },
             TwistLimit = Range(),
-            SwingLimit = new ConeLimit { Y = Power(-2, 0.4), Z = Power(-2, 0.4), Response = Response() },
+            SwingLimit = new ConeLimit { Y = _draw.Power(-2, 0.4), Z = _draw.Power(-2, 0.4), Response = Response() },
             DriveX = Spring(3),
             DriveY = Spring(6),
-            DriveTwist = One(4) ? Spring(1) : default,
-            DriveSlerp = One(4) ? Spring(1) : default,
+            DriveTwist = _draw.One(4) ? Spring(1) : default,
+            DriveSlerp = _draw.One(4) ? Spring(1) : default,
         };
         IsPassive &= joint.Layout().IsSlerp ? double.IsInfinity(joint.DriveSlerp.ForceLimit) : joint.DriveTwist.Stiffness == 0;
         IsPassive &= !(joint.Swing1 == AxisMotion.Limited && joint.Swing2 == AxisMotion.Limited && joint.SwingLimit.Response.IsSoft);
@@ -196,39 +196,29 @@ internal sealed class LimitedScene
 
     private AxisMotion Motion(bool isLocked)
     {
-        int number = _random.Next(6);
+        int number = _draw.Below(6);
         return isLocked || number < 2 ? AxisMotion.Locked : number < 5 ? AxisMotion.Limited : AxisMotion.Free;
     }
 
     // With zero, where the joint stands, inside it or at an end.
     private AngularLimit Range()
     {
-        double lower = One(6) ? 0 : One(6) ? -Math.PI : -Power(-2, 0.497);
-        double upper = One(6) && lower < 0 ? 0 : One(6) ? Math.PI : Power(-2, 0.497);
+        double lower = _draw.One(6) ? 0 : _draw.One(6) ? -Math.PI : -_draw.Power(-2, 0.497);
+        double upper = _draw.One(6) && lower < 0 ? 0 : _draw.One(6) ? Math.PI : _draw.Power(-2, 0.497);
         return new AngularLimit { Lower = lower, Upper = upper, Response = Response() };
     }
 
     private LimitResponse Response() =>
-        One(4) ? new LimitResponse { Stiffness = Power(-3, 9), Damping = One(2) ? Power(-3, 5) : 0 }
-        : One(2) ? new LimitResponse { Restitution = Between(0, 1), BounceThreshold = Between(0.01, 1) }
+        _draw.One(4) ? new LimitResponse { Stiffness = _draw.Power(-3, 9), Damping = _draw.One(2) ? _draw.Power(-3, 5) : 0 }
+        : _draw.One(2) ? new LimitResponse { Restitution = _draw.Between(0, 1), BounceThreshold = _draw.Between(0.01, 1) }
         : default;
 
-    private DriveModel Spring(int rarity) => !One(rarity)
+    private DriveModel Spring(int rarity) => !_draw.One(rarity)
         ? default
         : new DriveModel
         {
-            Stiffness = Power(-3, 9),
-            Damping = One(2) ? Power(-3, 5) : 0,
-            ForceLimit = One(2) ? double.PositiveInfinity : Power(-1, 3),
+            Stiffness = _draw.Power(-3, 9),
+            Damping = _draw.One(2) ? _draw.Power(-3, 5) : 0,
+            ForceLimit = _draw.One(2) ? double.PositiveInfinity : _draw.Power(-1, 3),
         };
-
-    private Quaterniond Turn() => new Quaterniond(Between(-1, 1), Between(-1, 1), Between(-1, 1), Between(-1, 1)).Normalized();
-
-    private bool One(int of) => _random.Next(of) == 0;
-
-    private double Between(double low, double high) => low + (high - low) * _random.NextDouble();
-
-    private double Power(double low, double high) => Math.Pow(10, Between(low, high));
-
-    private Vector3d Vector(double size) => new(Between(-size, size), Between(-size, size), Between(-size, size));
 }

@@ -17,7 +17,7 @@ internal sealed class MachineScene
 {
     private static readonly double[] StepLengths = { 1.0 / 50, 1.0 / 60, 1.0 / 100, 1.0 / 200 };
 
-    private readonly Random _random;
+    private readonly Draw _draw;
     private readonly List<GameObject> _objects = new();
     private readonly List<Box> _boxes = new();
     private readonly List<(int Body, int Component)> _joints = new();
@@ -29,27 +29,27 @@ internal sealed class MachineScene
 
     public MachineScene(int seed)
     {
-        _random = new Random(seed);
-        Size = Power(-1.5, 0.5);
-        Step = StepLengths[_random.Next(StepLengths.Length)];
-        _density = Power(2, 4);
-        _isPlane = One(2);
-        _plane = Turn();
-        bool isFloating = One(6);
-        bool isLed = !isFloating && One(8);
-        int bodies = _random.Next(isFloating ? 2 : 1, 7);
+        _draw = new Draw(seed);
+        Size = _draw.Power(-1.5, 0.5);
+        Step = StepLengths[_draw.Below(StepLengths.Length)];
+        _density = _draw.Power(2, 4);
+        _isPlane = _draw.One(2);
+        _plane = _draw.Turn();
+        bool isFloating = _draw.One(6);
+        bool isLed = !isFloating && _draw.One(8);
+        int bodies = _draw.From(isFloating ? 2 : 1, 7);
         if (isLed)
         {
             _led = 0;
-            AddBox(Vector(Size), true);
+            AddBox(_draw.Vector(Size), true);
             IsPassive = false;
         }
 
         int first = _objects.Count;
         for (int i = 0; i < bodies; i++)
         {
-            int parent = i == 0 ? (isLed ? 0 : -1) : first + (One(4) ? _random.Next(i) : i - 1);
-            Vector3d point = parent < 0 ? Vector(Size) : _boxes[parent].Point(Vector(1));
+            int parent = i == 0 ? (isLed ? 0 : -1) : first + (_draw.One(4) ? _draw.Below(i) : i - 1);
+            Vector3d point = parent < 0 ? _draw.Vector(Size) : _boxes[parent].Point(_draw.Vector(1));
             int body = AddBox(point, false);
             if (i > 0 || !isFloating)
             {
@@ -57,10 +57,10 @@ internal sealed class MachineScene
             }
         }
 
-        if (bodies > 2 && One(2))
+        if (bodies > 2 && _draw.One(2))
         {
             int last = _objects.Count - 1;
-            AddJoint(last, isFloating ? first : isLed ? 0 : -1, _boxes[last].Point(Vector(1)), true);
+            AddJoint(last, isFloating ? first : isLed ? 0 : -1, _boxes[last].Point(_draw.Vector(1)), true);
         }
 
         AddGear();
@@ -132,11 +132,11 @@ internal sealed class MachineScene
     // A box somewhere about a point; of itself a point of its middle, an edge or outside of it.
     private int AddBox(Vector3d point, bool isKinematic)
     {
-        Quaterniond turn = _isPlane ? (_plane * Quaterniond.AxisAngle(Vector3d.UnitZ, Between(-3, 3))).Normalized() : Turn();
-        var half = new Vector3d(Size * Between(0.3, 1), Size * Between(0.05, 0.5), Size * Between(0.05, 0.5));
-        Vector3d hung = Vector3d.Scale(Vector(1), half);
+        Quaterniond turn = _isPlane ? (_plane * Quaterniond.AxisAngle(Vector3d.UnitZ, _draw.Between(-3, 3))).Normalized() : _draw.Turn();
+        var half = new Vector3d(Size * _draw.Between(0.3, 1), Size * _draw.Between(0.05, 0.5), Size * _draw.Between(0.05, 0.5));
+        Vector3d hung = Vector3d.Scale(_draw.Vector(1), half);
         hung = _isPlane ? new Vector3d(hung.X, hung.Y, 0) : hung;
-        double mass = 8 * half.X * half.Y * half.Z * _density * (One(8) ? 30 : 1);
+        double mass = 8 * half.X * half.Y * half.Z * _density * (_draw.One(8) ? 30 : 1);
         Vector3d square = Vector3d.Scale(half, half) * (mass / 3);
         var pose = new Pose(point - turn * hung, turn);
         _boxes.Add(new Box(pose, half));
@@ -151,10 +151,10 @@ internal sealed class MachineScene
                 {
                     Mass = mass,
                     InertiaTensor = new Vector3d(square.Y + square.Z, square.X + square.Z, square.X + square.Y),
-                    CenterOfMass = One(4) ? half * 0.3 : Vector3d.Zero,
+                    CenterOfMass = _draw.One(4) ? half * 0.3 : Vector3d.Zero,
                     IsKinematic = isKinematic,
-                    AngularDamping = One(3) ? 0.05 : 0,
-                    LinearDamping = One(6) ? 0.1 : 0,
+                    AngularDamping = _draw.One(3) ? 0.05 : 0,
+                    LinearDamping = _draw.One(6) ? 0.1 : 0,
                     MaxAngularVelocity = 1000,
                 },
             },
@@ -165,16 +165,16 @@ internal sealed class MachineScene
     private void AddJoint(int body, int connected, Vector3d point, bool closes)
     {
         Box box = _boxes[body];
-        Vector3d axis = box.Pose.Rotation.InverseRotate(_isPlane ? _plane * Vector3d.UnitZ : Vector(1).Normalized());
+        Vector3d axis = box.Pose.Rotation.InverseRotate(_isPlane ? _plane * Vector3d.UnitZ : _draw.Vector(1).Normalized());
         Vector3d anchor = box.Pose.InversePoint(point);
         double mass = ((Rigidbody)_objects[body].Components[0]).Mass;
-        var gains = new Gains(Between(2, 40), One(2) ? Between(0, 0.7) : 0, mass, Size);
-        Joint joint = _isPlane ? PlaneJoint(gains, closes) : closes ? Ball(gains, true) : _random.Next(4) switch
+        var gains = new Gains(_draw.Between(2, 40), _draw.One(2) ? _draw.Between(0, 0.7) : 0, mass, Size);
+        Joint joint = _isPlane ? PlaneJoint(gains, closes) : closes ? Ball(gains, true) : _draw.Below(4) switch
         {
             0 => Hinge(gains),
             1 => Ball(gains, false),
             2 => Slide(gains, false),
-            _ => One(2) ? Universal() : Cylinder(gains),
+            _ => _draw.One(2) ? Universal() : Cylinder(gains),
         };
         joint = joint switch
         {
@@ -195,20 +195,20 @@ internal sealed class MachineScene
         _joints.Add((body, components.Count - 1));
     }
 
-    private Joint PlaneJoint(in Gains gains, bool closes) => closes || !One(4) ? Hinge(gains) : Slide(gains, One(2));
+    private Joint PlaneJoint(in Gains gains, bool closes) => closes || !_draw.One(4) ? Hinge(gains) : Slide(gains, _draw.One(2));
 
     private HingeJoint Hinge(in Gains gains)
     {
-        bool hasMotor = One(8);
+        bool hasMotor = _draw.One(8);
         IsPassive &= !hasMotor;
         return new HingeJoint
         {
-            UseLimits = One(2),
-            Limits = new JointLimits { Min = -Between(2, 100), Max = Between(2, 120), Bounciness = One(2) ? Between(0, 0.9) : 0 },
+            UseLimits = _draw.One(2),
+            Limits = new JointLimits { Min = -_draw.Between(2, 100), Max = _draw.Between(2, 120), Bounciness = _draw.One(2) ? _draw.Between(0, 0.9) : 0 },
             UseMotor = hasMotor,
-            Motor = new JointMotor { TargetVelocity = Between(-200, 200), Force = gains.Torque * Between(0.5, 10), FreeSpin = One(4) },
-            UseSpring = !hasMotor && One(3),
-            Spring = new JointSpring { Spring = gains.AngularSpring, Damper = gains.AngularDamper, TargetPosition = Between(-40, 40) },
+            Motor = new JointMotor { TargetVelocity = _draw.Between(-200, 200), Force = gains.Torque * _draw.Between(0.5, 10), FreeSpin = _draw.One(4) },
+            UseSpring = !hasMotor && _draw.One(3),
+            Spring = new JointSpring { Spring = gains.AngularSpring, Damper = gains.AngularDamper, TargetPosition = _draw.Between(-40, 40) },
         };
     }
 
@@ -218,29 +218,29 @@ internal sealed class MachineScene
         ConfigurableJoint locked = Locked();
         return locked with
         {
-            XMotion = One(2) ? ConfigurableJointMotion.Limited : ConfigurableJointMotion.Free,
+            XMotion = _draw.One(2) ? ConfigurableJointMotion.Limited : ConfigurableJointMotion.Free,
             AngularZMotion = turns ? ConfigurableJointMotion.Free : ConfigurableJointMotion.Locked,
-            LinearLimit = new SoftJointLimit { Limit = Size * Between(0.1, 1), Bounciness = One(2) ? Between(0, 0.9) : 0 },
-            LinearLimitSpring = One(3) ? new SoftJointLimitSpring { Spring = gains.Spring, Damper = gains.Damper } : SoftJointLimitSpring.Default,
-            XDrive = One(3) ? new JointDrive { PositionSpring = gains.Spring, PositionDamper = gains.Damper } : JointDrive.Default,
+            LinearLimit = new SoftJointLimit { Limit = Size * _draw.Between(0.1, 1), Bounciness = _draw.One(2) ? _draw.Between(0, 0.9) : 0 },
+            LinearLimitSpring = _draw.One(3) ? new SoftJointLimitSpring { Spring = gains.Spring, Damper = gains.Damper } : SoftJointLimitSpring.Default,
+            XDrive = _draw.One(3) ? new JointDrive { PositionSpring = gains.Spring, PositionDamper = gains.Damper } : JointDrive.Default,
         };
     }
 
     private ConfigurableJoint Ball(in Gains gains, bool closes)
     {
-        bool isCone = !closes && One(2);
-        bool isSprung = !closes && One(4);
+        bool isCone = !closes && _draw.One(2);
+        bool isSprung = !closes && _draw.One(4);
         IsPassive &= !isSprung;
         ConfigurableJointMotion swing = isCone ? ConfigurableJointMotion.Limited : ConfigurableJointMotion.Free;
         return Locked() with
         {
-            AngularXMotion = One(2) ? ConfigurableJointMotion.Limited : ConfigurableJointMotion.Free,
+            AngularXMotion = _draw.One(2) ? ConfigurableJointMotion.Limited : ConfigurableJointMotion.Free,
             AngularYMotion = swing,
             AngularZMotion = swing,
-            LowAngularXLimit = new SoftJointLimit { Limit = -Between(10, 120), Bounciness = One(2) ? Between(0, 0.9) : 0 },
-            HighAngularXLimit = new SoftJointLimit { Limit = Between(10, 120) },
-            AngularYLimit = new SoftJointLimit { Limit = Between(10, 100), Bounciness = One(2) ? Between(0, 0.9) : 0 },
-            AngularZLimit = new SoftJointLimit { Limit = Between(10, 100) },
+            LowAngularXLimit = new SoftJointLimit { Limit = -_draw.Between(10, 120), Bounciness = _draw.One(2) ? _draw.Between(0, 0.9) : 0 },
+            HighAngularXLimit = new SoftJointLimit { Limit = _draw.Between(10, 120) },
+            AngularYLimit = new SoftJointLimit { Limit = _draw.Between(10, 100), Bounciness = _draw.One(2) ? _draw.Between(0, 0.9) : 0 },
+            AngularZLimit = new SoftJointLimit { Limit = _draw.Between(10, 100) },
             RotationDriveMode = RotationDriveMode.Slerp,
             SlerpDrive = isSprung ? new JointDrive { PositionSpring = gains.AngularSpring, PositionDamper = gains.AngularDamper } : JointDrive.Default,
         };
@@ -248,17 +248,17 @@ internal sealed class MachineScene
 
     private ConfigurableJoint Universal() => Locked() with
     {
-        AngularYMotion = One(2) ? ConfigurableJointMotion.Limited : ConfigurableJointMotion.Free,
-        AngularZMotion = One(2) ? ConfigurableJointMotion.Limited : ConfigurableJointMotion.Free,
-        AngularYLimit = new SoftJointLimit { Limit = Between(5, 80) },
-        AngularZLimit = new SoftJointLimit { Limit = Between(5, 80), Bounciness = One(2) ? Between(0, 0.9) : 0 },
+        AngularYMotion = _draw.One(2) ? ConfigurableJointMotion.Limited : ConfigurableJointMotion.Free,
+        AngularZMotion = _draw.One(2) ? ConfigurableJointMotion.Limited : ConfigurableJointMotion.Free,
+        AngularYLimit = new SoftJointLimit { Limit = _draw.Between(5, 80) },
+        AngularZLimit = new SoftJointLimit { Limit = _draw.Between(5, 80), Bounciness = _draw.One(2) ? _draw.Between(0, 0.9) : 0 },
     };
 
     private ConfigurableJoint Cylinder(in Gains gains) => Slide(gains, false) with
     {
-        AngularXMotion = One(2) ? ConfigurableJointMotion.Limited : ConfigurableJointMotion.Free,
-        LowAngularXLimit = new SoftJointLimit { Limit = -Between(5, 170) },
-        HighAngularXLimit = new SoftJointLimit { Limit = Between(5, 170) },
+        AngularXMotion = _draw.One(2) ? ConfigurableJointMotion.Limited : ConfigurableJointMotion.Free,
+        LowAngularXLimit = new SoftJointLimit { Limit = -_draw.Between(5, 170) },
+        HighAngularXLimit = new SoftJointLimit { Limit = _draw.Between(5, 170) },
     };
 
     private static ConfigurableJoint Locked() => new()
@@ -274,9 +274,9 @@ internal sealed class MachineScene
     private void AddGear()
     {
         List<(int Body, int Component)> hinges = _joints.FindAll(at => _objects[at.Body].Components[at.Component] is HingeJoint);
-        if (hinges.Count > 1 && One(4))
+        if (hinges.Count > 1 && _draw.One(4))
         {
-            _couplings.Add(new Coupling { Kind = CouplingKind.Gear, A = At(hinges[0]), B = At(hinges[^1]), Ratio = Between(-3, 3) });
+            _couplings.Add(new Coupling { Kind = CouplingKind.Gear, A = At(hinges[0]), B = At(hinges[^1]), Ratio = _draw.Between(-3, 3) });
         }
 
         static JointCoordinate At((int Body, int Component) at) => new() { GameObject = at.Body, Component = at.Component, Coordinate = Coordinate.Angle };
@@ -284,15 +284,15 @@ internal sealed class MachineScene
 
     private void Plan()
     {
-        for (int i = _random.Next(3); i > 0; i--)
+        for (int i = _draw.Below(3); i > 0; i--)
         {
             // Between steps, so that steps of any length have it before the same one.
-            double time = Step * (_random.Next(2, 60) + 1e-3);
-            int body = _random.Next(_objects.Count);
-            int joint = _joints.Count > 0 ? _random.Next(_joints.Count) : -1;
-            double number = Between(-1, 1);
-            Vector3d push = Vector(1);
-            switch (_random.Next(4))
+            double time = Step * (_draw.From(2, 60) + 1e-3);
+            int body = _draw.Below(_objects.Count);
+            int joint = _joints.Count > 0 ? _draw.Below(_joints.Count) : -1;
+            double number = _draw.Between(-1, 1);
+            Vector3d push = _draw.Vector(1);
+            switch (_draw.Below(4))
             {
                 case 0 when joint >= 0:
                     Acts.Add((time, world => Drive(world.Joints[joint], number, true)));
@@ -329,16 +329,6 @@ internal sealed class MachineScene
             joint.DriveAt(coordinate, number * scale);
         }
     }
-
-    private Quaterniond Turn() => new Quaterniond(Between(-1, 1), Between(-1, 1), Between(-1, 1), Between(-1, 1)).Normalized();
-
-    private bool One(int of) => _random.Next(of) == 0;
-
-    private double Between(double low, double high) => low + (high - low) * _random.NextDouble();
-
-    private double Power(double low, double high) => Math.Pow(10, Between(low, high));
-
-    private Vector3d Vector(double size) => new(Between(-size, size), Between(-size, size), Between(-size, size));
 
     /// <summary>Half edges, along the axes of its pose.</summary>
     private readonly record struct Box(Pose Pose, Vector3d Half)

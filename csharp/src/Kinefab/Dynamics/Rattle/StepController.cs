@@ -127,6 +127,11 @@ internal sealed partial class StepController
         int stops = DampedSteps;
         double demand = StepLimit.Of(_batch, dt);
         int halvings = Math.Max(cut.Halvings, hasFailed && !_part.IsEager ? 1 : 0);
+        if (demand > 1 << halvings && _batch.ActiveSet != null && _batch.ActiveSet.RestOn())
+        {
+            demand = StepLimit.Of(_batch, dt);
+        }
+
         _isSingular = cut.IsSingular;
         _firstLoss = 0;
         while (halvings < MaxHalvings && demand > 1 << halvings)
@@ -144,12 +149,24 @@ internal sealed partial class StepController
             FindHeldDrives(dt);
         }
 
+        if (_batch.ActiveSet != null && _batch.ActiveSet.NextResting(0) >= 0)
+        {
+            HeldDrives.Wake(_batch, _batch.ActiveSet, _exact, tolerance);
+            Return(_start, dt);
+        }
+
         while (!TryEvenParts(dt, halvings, tolerance))
         {
             Return(_start, dt);
             _hasMoved = false;
             bool wasEager = _part.IsEager;
             _part.IsEager = true;
+            if (_batch.ActiveSet != null && _batch.ActiveSet.RestOn())
+            {
+                _start.Save(_batch);
+                continue;
+            }
+
             if (!hasLooked && _batch.ActiveSet != null && _batch.ActiveSet.HasEndless())
             {
                 hasLooked = true;
@@ -194,8 +211,13 @@ internal sealed partial class StepController
 
         cut.IsSingular = _isSingular && !new EnergyAudit(_batch, dt, tolerance).IsKept(_energy, false, MostEnergyChange);
         Enter(ref cut.Energy);
-        cut.Record(halvings, demand);
-        cut.IsSlowedDown = _batch.ActiveSet != null && _batch.ActiveSet.EndPace(tolerance);
+        bool comesToRest = false;
+        cut.IsSlowedDown = _batch.ActiveSet != null && _batch.ActiveSet.EndPace(dt, tolerance, out comesToRest);
+        if (!comesToRest)
+        {
+            cut.Record(halvings, demand);
+        }
+
         _part.SetLength(dt);
         if (_dampedInStep == 0 || _hasMoved)
         {

@@ -131,6 +131,9 @@ internal struct ScalarRow
     /// <summary>Which way it was asked to go then: the sign of its speed.</summary>
     public int SlowdownSide;
 
+    /// <summary>What freedom a drive that rests had when it came to rest, see <see cref="HeldDrives.Wake"/>; NaN: it is not measured yet.</summary>
+    public double RestingFreedom;
+
     /// <summary>Time since the joint left its limit, as far as it was in this part of a step; else infinite, s.</summary>
     public double Flight;
 

@@ -16,6 +16,16 @@ internal sealed partial class ActiveSet<V>
     private const int MostSlowdowns = 20;
     private const int Slowdown = 2;
 
+    // One that stands rests: it asks for nothing that rounding tells from rest, so that it and what holds it agree. It tries again now and then as it comes
+    // back from there; where HeldDrives sees it free, at once.
+    private const int Resting = 60;
+    private const int Awake = 4;
+
+    // Of the speed that it was asked for at first, less is a drive that stands, if it also turns by less in a step, rad, or moves by less of what the
+    // mechanism reaches.
+    private const double LeastMoved = 1e-3;
+    private const double LeastWay = 1e-4;
+
     // In a step a drive to a goal begins with no more than this turn, rad, or this share of what the mechanism reaches.
     private const double MostTurn = 0.5;
     private const double MostWay = 0.1;
@@ -27,11 +37,12 @@ internal sealed partial class ActiveSet<V>
     private const double Margin = 4;
 
     /// <summary>
-    /// The most impulse that a drive can need in a step, whatever way its island takes: to start, stop or turn round all bodies as one, and to hold out
-    /// against springs, other drives and loads. Of a chain no more reaches it; levers and gears may multiply it.
+    /// The most impulse that a drive can need in a part of a step, whatever way its island takes: to start, stop or turn round all bodies as one, which is
+    /// a matter of the whole step, and to hold out against springs, other drives and loads. Of a chain no more reaches it; levers and gears may multiply
+    /// it. What the bodies have beside the drive's own speed does not count: where a dead point throws them about, each step would throw them farther.
     /// </summary>
     /// <param name="drive">Its row.</param>
-    /// <param name="h">Step, s.</param>
+    /// <param name="h">Length of the part, s.</param>
     private double MostNeeded(in ScalarRow drive, double h)
     {
         const double mostAcceleration = 1e3;
@@ -39,7 +50,7 @@ internal sealed partial class ActiveSet<V>
         double speed = Math.Abs(drive.AskedSpeed(h));
         double levers = _batch.Shape.HasLoops ? MostByLevers : 1;
         Vector3d anchor = Anchor(drive);
-        double reach = 0, mass = 0, moments = 0, momentum = 0, load = 0;
+        double reach = 0, mass = 0, moments = 0, load = 0;
         for (int body = 0; body < _batch.Shape.MovingBodies; body++)
         {
             int o = LaneRecords<V>.Body(body, 0);
@@ -49,14 +60,13 @@ internal sealed partial class ActiveSet<V>
             reach = Math.Max(reach, arm);
             mass += own;
             moments += own * arm * arm + Inverse(_batch.Bodies[o + BodyLanes.LeastInverseInertia]);
-            momentum += weight * Length(o + BodyLanes.V) + (isAngular ? Length(o + BodyLanes.L) : 0);
             load += weight * Length(o + BodyLanes.Acceleration) + (isAngular ? Length(o + BodyLanes.Torque) : 0);
         }
 
         double inertia = isAngular ? moments : levers > 1 && reach > 0 ? mass + levers * moments / (reach * reach) : mass;
-        double impulse = Margin * (inertia * speed + momentum + (load + levers * Opposed(drive, h, speed, reach)) * h) + inertia * mostAcceleration * Math.Sqrt(drive.Pace) * h;
-        return ByGears(reach) * impulse;
-
+        double start = Math.Max(0, Margin * inertia * (speed + Math.Abs(drive.StartSpeed)) - Math.Abs(_batch.Work.TotalImpulses[drive.Index]));
+        double force = Margin * (load + levers * Opposed(drive, h, speed, reach)) + inertia * mostAcceleration * Math.Sqrt(drive.Pace);
+        return ByGears(reach) * (start + force * h);
     }
 
     // How far from a drive's joint the farthest body is, m.
@@ -106,12 +116,18 @@ internal sealed partial class ActiveSet<V>
         }
     }
 
-    /// <summary>After a step: a drive without limit of force asks for less where the mechanism did not follow it, and for more again where it did.</summary>
+    /// <summary>
+    /// After a step: a drive without limit of force asks for less where the mechanism did not follow it, for nothing where it stood, and for more again
+    /// where it was followed.
+    /// </summary>
+    /// <param name="dt">Step, s.</param>
     /// <param name="tolerance">m/s or rad/s.</param>
+    /// <param name="comesToRest">Whether one stood and rests from now on.</param>
     /// <returns>Whether one is slowed down.</returns>
-    public bool EndPace(double tolerance)
+    public bool EndPace(double dt, double tolerance, out bool comesToRest)
     {
         bool isAny = false;
+        comesToRest = false;
         for (int i = 0; i < _rows.Length; i++)
         {
             ref ScalarRow scalar = ref _rows[i];
@@ -123,15 +139,126 @@ internal sealed partial class ActiveSet<V>
             double asked = scalar.Built.VelocityTarget;
             scalar.SlowdownSide = Side(asked);
             bool isFollowed = !scalar.IsStalled && StartSpeed(scalar) * scalar.SlowdownSide >= LeastFollowed * Math.Abs(asked) - tolerance;
-            scalar.SlowDown(isFollowed ? Math.Max(0, scalar.Slowdowns - 1) : Math.Min(MostSlowdowns, scalar.Slowdowns + Slowdown));
+            double speed = Math.Abs(StartSpeed(scalar));
+            bool stands = scalar.IsStalled && speed <= LeastMoved * Math.Abs(asked) / scalar.Pace
+                && speed * dt <= LeastWay * (scalar.Built.Has(RowFlags.Angular) ? 1 : FarthestBody(scalar));
+            bool rests = scalar.Slowdowns > MostSlowdowns;
+            scalar.SlowDown(isFollowed ? Math.Max(0, scalar.Slowdowns - 1)
+                : stands || rests ? Resting
+                : Math.Min(MostSlowdowns, scalar.Slowdowns + Slowdown));
             isAny |= scalar.Slowdowns > 0;
+            if (!isFollowed && scalar.Slowdowns == Resting)
+            {
+                scalar.RestingFreedom = double.NaN;
+                comesToRest = true;
+            }
+        }
+
+        if (comesToRest)
+        {
+            ForgetImpulses();
         }
 
         return isAny;
     }
 
+    // A drive that gave all it has and what stopped it hold each other by far more than they have to. As a guess that would stay, since rows that agree ask
+    // for no other; and shorter steps, which it made needful, no longer are.
+    private void ForgetImpulses()
+    {
+        Array.Clear(_batch.VelocityImpulses, 0, _batch.VelocityImpulses.Length);
+        for (int body = 0; body < _batch.Shape.MovingBodies; body++)
+        {
+            _batch.Bodies[LaneRecords<V>.Body(body, BodyLanes.Stiffness)] = 0;
+        }
+
+        for (int i = 0; i < _rows.Length; i++)
+        {
+            _rows[i].ImpulseFirstHalf = 0;
+        }
+    }
+
     // The sign of a speed; of no number none.
     private static int Side(double speed) => speed > 0 ? 1 : speed < 0 ? -1 : 0;
+
+    /// <summary>Drives that were about to try again after a rest go on resting; whether there are such.</summary>
+    public bool RestOn()
+    {
+        bool isAny = false;
+        for (int i = NextResting(0); i >= 0; i = NextResting(i + 1))
+        {
+            isAny |= _rows[i].Slowdowns < Resting;
+            _rows[i].SlowDown(Resting);
+        }
+
+        if (isAny)
+        {
+            ForgetImpulses();
+        }
+
+        return isAny;
+    }
+
+    /// <summary>The next row, from one on, of a drive that rests; -1: there is none.</summary>
+    public int NextResting(int from)
+    {
+        int i = from;
+        while (i < _rows.Length && !(_rows[i].Slowdowns > MostSlowdowns && _rows[i].IsEndlessDrive))
+        {
+            i++;
+        }
+
+        return i < _rows.Length ? i : -1;
+    }
+
+    /// <summary>What freedom a drive has where it rests; it goes on where it has more than it came to rest with.</summary>
+    /// <param name="index">Its row.</param>
+    /// <param name="freedom">Of its own bodies' response, what the joints and the limits that it pushes against leave.</param>
+    public void Wake(int index, double freedom)
+    {
+        const double more = 4;
+        const double least = 1e-9;
+        ref ScalarRow scalar = ref _rows[index];
+        if (double.IsNaN(scalar.RestingFreedom))
+        {
+            scalar.RestingFreedom = freedom;
+        }
+        else if (freedom > more * scalar.RestingFreedom && freedom > least)
+        {
+            scalar.SlowDown(Awake);
+        }
+    }
+
+    /// <summary>Holds the hard limits that are reached where the rows were last built, and nothing else.</summary>
+    /// <param name="tolerance">Largest C, m or rad.</param>
+    public void HoldReached(double tolerance)
+    {
+        for (int i = 0; i < _rows.Length; i++)
+        {
+            ref ScalarRow scalar = ref _rows[i];
+            bool isReached = scalar.IsActive && IsHardLimit(scalar.Built) && scalar.Built.GeometricError <= Reach * tolerance;
+            scalar.Kind = isReached ? RowKind.Limit : RowKind.None;
+            scalar.State = isReached ? RowState.Free : RowState.AtBound;
+        }
+    }
+
+    /// <summary>Lets go of the limits that draw; true when one did.</summary>
+    /// <param name="impulses">Of all rows.</param>
+    public bool LetGoOfDrawing(double[] impulses)
+    {
+        bool isAny = false;
+        for (int i = 0; i < _rows.Length; i++)
+        {
+            ref ScalarRow scalar = ref _rows[i];
+            if (scalar.State == RowState.Free && impulses[scalar.Index] < 0)
+            {
+                scalar.State = RowState.AtBound;
+                isAny = true;
+            }
+        }
+
+        return isAny;
+    }
 
     /// <summary>Whether a drive has no limit of force.</summary>
     public bool HasEndless() => Array.Exists(_rows, row => row.IsEndlessDrive);

@@ -34,7 +34,7 @@ internal static class HeldDrives
         List<int>[] opposing = Array.ConvertAll(drives, _ => new List<int>());
 
         // What the joints leave of the drives' responses, and what the drives that act take from those that are left.
-        double[][] left = Array.ConvertAll(drives, drive => Left(batch, scalars, exact, drives, drive));
+        double[][] left = Array.ConvertAll(drives, drive => Left(batch, scalars, exact, drives, drive, 1));
         double[] own = Array.ConvertAll(drives, drive => Impulses<ScalarLane>.ResponseOf(batch, scalars.Row(drive).Block, scalars.Row(drive).Built));
         var byJoints = new double[drives.Length];
         var waiting = new List<int>();
@@ -75,6 +75,41 @@ internal static class HeldDrives
         }
     }
 
+    /// <summary>
+    /// Drives without limit of force that stood and rest go on as soon as they are free to, as where a latch lets go of what it held. Leaves momenta and
+    /// matrix for the caller to restore.
+    /// </summary>
+    /// <param name="batch">Built at the start pose.</param>
+    /// <param name="scalars">Its rows.</param>
+    /// <param name="exact">Solves without the matrix's compliance.</param>
+    /// <param name="tolerance">Largest C, m or rad.</param>
+    public static void Wake(LaneBatch<ScalarLane> batch, ActiveSet<ScalarLane> scalars, ConjugateGradient exact, double tolerance)
+    {
+        for (int i = scalars.NextResting(0); i >= 0; i = scalars.NextResting(i + 1))
+        {
+            scalars.Wake(i, Freedom(batch, scalars, exact, i, tolerance));
+        }
+    }
+
+    // Of its own bodies' response to an impulse the way that a drive asks for, what joints and reached limits leave when they answer; those that would have
+    // to draw let go.
+    private static double Freedom(LaneBatch<ScalarLane> batch, ActiveSet<ScalarLane> scalars, ConjugateGradient exact, int drive, double tolerance)
+    {
+        batch.Work.Active[0] = 1;
+        double impulse = scalars.Row(drive).Built.VelocityTarget < 0 ? -1 : 1;
+        double own = Impulses<ScalarLane>.ResponseOf(batch, scalars.Row(drive).Block, scalars.Row(drive).Built);
+        scalars.HoldReached(tolerance);
+        double left;
+        do
+        {
+            RattleStep<ScalarLane>.Factor(batch, false);
+            left = impulse * Left(batch, scalars, exact, new[] { drive }, drive, impulse)[0];
+        }
+        while (scalars.LetGoOfDrawing(batch.Work.Solution));
+
+        return left / own;
+    }
+
     // The drive that has the most freedom left, in proportion; of those alike the slowest, in whatever order the joints stand.
     private static int First(List<int> waiting, double[][] left, double[] own, int[] drives, ActiveSet<ScalarLane> scalars)
     {
@@ -99,8 +134,8 @@ internal static class HeldDrives
         }
     }
 
-    // Speeds along the drives that an impulse of 1 along one of them gives once the joints have answered.
-    private static double[] Left(LaneBatch<ScalarLane> batch, ActiveSet<ScalarLane> scalars, ConjugateGradient exact, int[] drives, int drive)
+    // Speeds along the drives that an impulse along one of them gives once the rows that hold have answered; their answers stand in Work.Solution.
+    private static double[] Left(LaneBatch<ScalarLane> batch, ActiveSet<ScalarLane> scalars, ConjugateGradient exact, int[] drives, int drive, double impulse)
     {
         ref readonly ScalarRow row = ref scalars.Row(drive);
         double[] speeds = batch.Work.Solution;
@@ -108,7 +143,7 @@ internal static class HeldDrives
         double[] before = Array.ConvertAll(drives, SpeedOf);
         Impulses<ScalarLane>.NegativeSpeeds(batch);
         Array.Copy(speeds, answer, speeds.Length);
-        Impulses<ScalarLane>.ApplyRow(batch, row.Block, row.Built, 1);
+        Impulses<ScalarLane>.ApplyRow(batch, row.Block, row.Built, impulse);
         Impulses<ScalarLane>.NegativeSpeeds(batch);
         for (int i = 0; i < speeds.Length; i++)
         {

@@ -49,9 +49,9 @@ def trial(
     floor: Array | None = None,
     *,
     keep: bool = False,
-) -> tuple[dict[int, Array], Array]:
-    """Displacements (6 n of each part), over ``step``, after a step along each direction and back onto the rows; and the residual
-    of each part there.  What did not come back onto them has kept nothing, unless told to ``keep``.
+) -> tuple[dict[int, Array], Array, State]:
+    """Displacements (6 n of each part), over ``step``, after a step along each direction and back onto the rows; the residual
+    of each part there; and the pose.  What did not come back onto them has kept nothing, unless told to ``keep``.
 
     floor: see ``floor_of``, where it is known."""
     bodies = np.concatenate([first_order[p].bodies for p in directions])
@@ -65,7 +65,7 @@ def trial(
     moved = _displacement(solver, bodies, start, state) / step
     ends: list[int] = np.cumsum([6 * len(first_order[p].bodies) for p in directions]).tolist()
     own = zip(directions, [0, *ends], ends)
-    return {part: moved[at:end] * (keep or not stuck[part]) for part, at, end in own}, left
+    return {part: moved[at:end] * (keep or not stuck[part]) for part, at, end in own}, left, state
 
 
 def _displacement(solver: Solver, bodies: IntArray, start: State, end: State) -> Array:
@@ -93,8 +93,8 @@ def kept_of(
         tried = [
             left_of(solver, part, freedom, state, direction, step, floor, keep=not last) for direction in basis.T
         ]
-        u, s, _ = np.linalg.svd(np.array([left for left, _ in tried]).T, full_matrices=False)
-        open_ = max(residual for _, residual in tried)
+        u, s, _ = np.linalg.svd(np.array([left for left, *_ in tried]).T, full_matrices=False)
+        open_ = max(residual for _, residual, _ in tried)
         some = s > HIDDEN / step
         if not some.any() or (open_ <= _most_open(floor, step)[part] and not np.any(some & (s < WHOLE))):
             break
@@ -112,12 +112,12 @@ def left_of(
     floor: Array | None = None,
     *,
     keep: bool = False,
-) -> tuple[Array, float]:
-    """What trial steps both ways leave of a direction, as a share of its length, shape (6 n,); and the larger residual where they
-    ended, see ``trial``."""
+) -> tuple[Array, float, tuple[State, State]]:
+    """What trial steps both ways leave of a direction, as a share of its length, shape (6 n,); the larger residual where they
+    ended, see ``trial``; and the two poses."""
     direction = direction / np.abs(direction).max()
     there, back = (
         trial(solver, {part: freedom}, state, {part: way}, step, floor, keep=keep) for way in (direction, -direction)
     )
     left = 0.5 * (there[0][part] - back[0][part]) / np.linalg.norm(direction)
-    return left, max(float(there[1][part]), float(back[1][part]))
+    return left, max(float(there[1][part]), float(back[1][part])), (there[2], back[2])

@@ -234,8 +234,10 @@ def _beyond_doubt(solver: Solver, part: int, freedom: BlockFreedom, state: State
     ways, share, step = freedom.basis, np.ones(freedom.mobility), STEP
     for further in range(MOST_FURTHER):
         if further:
-            state, there = _further(solver, part, freedom, state)
-            freedom = there[part]
+            there, freedoms = _further(solver, part, freedom, state)
+            if there is state:  # no step led away, and none would from the same pose again
+                break
+            state, freedom = there, freedoms[part]
         if not freedom.mobility:
             return freedom.basis
         for step in PROBES:

@@ -10,7 +10,9 @@ import pytest
 from kinefab.analysis import analyse
 from kinefab.analysis.equations.solve import Solver, cautious_step, minimum_norm
 from kinefab.analysis.findings.summary import scene_entry
+from kinefab.analysis.freedom.branches import held_there
 from kinefab.analysis.freedom.motion import walked
+from kinefab.analysis.freedom.probes import floor_of, left_of, left_of_each, trial
 from kinefab.model import ConstraintKind
 from linkages import elbow_of, flat_ladder
 from mechanism_cases import analysed, scene, table
@@ -131,6 +133,39 @@ def test_a_pose_that_could_not_be_closed_is_not_walked_to(monkeypatch):
     assert np.array_equal(there.rotation, start.rotation) and np.array_equal(there.shift, start.shift)
 
 
+def test_steps_taken_at_once_leave_what_they_leave_one_by_one():
+    """Of a flat ladder, whose velocities are obstructed but for one, and of a mechanism that only moves."""
+    for scene_of in (flat_ladder(2), analysed("M06").source):
+        assembly = analyse(scene_of).assembly
+        solver = Solver(assembly.solver.alone(0), cautious=True)
+        start, first = solver.system.start(), assembly.freedoms[0]
+        freedom = replace(first, bodies=np.arange(1, solver.system.bodies))
+        for keep in (True, False):
+            asked = solver, 0, freedom, start
+            ways, floor = freedom.basis.T, floor_of(solver, start)
+            left, open_ = left_of_each(*asked, ways, 1e-2, floor, keep=keep)
+            single = [left_of(*asked, way, 1e-2, floor, keep=keep) for way in ways]
+            assert np.abs(left - [one for one, *_ in single]).max() < 1e-5
+            assert open_ == pytest.approx(max(residual for _, residual, _ in single), rel=1.0, abs=1e-13)
+
+
+def test_where_branches_cross_the_rows_hold_more_on_either_one():
+    """A parallelogram that lies flat turns on, or folds: its pose has two velocities, those of either motion one."""
+    solver, start, first = crossing()
+    here, every = {0: first}, np.ones(1, dtype=bool)
+    assert first.mobility == 2 and not held_there(solver, here, start, every)
+    for way in first.basis.T:
+        state = trial(solver, here, start, {0: way / np.abs(way).max()}, 1e-2)[2]
+        assert held_there(solver, here, state, every) == [0]
+
+
+def crossing():
+    assembly = analyse(flat_ladder(1)).assembly
+    solver = Solver(assembly.solver.alone(0), cautious=True)
+    bodies = np.arange(1, solver.system.bodies)
+    return solver, solver.system.start(), replace(assembly.freedoms[0], bodies=bodies)
+
+
 def test_rows_that_merging_repeats_are_redundant_in_the_file():
     """Two slides whose bodies keep one orientation, and a hinge that this holds: it is merged, and its body is then
     held twice.  The file says no fewer than its islands do."""
@@ -148,7 +183,7 @@ def test_loops_are_joints_minus_moving_bodies(id, loops):
     assert sum(i.loops for i in found.islands) == loops
 
 
-@pytest.mark.parametrize(("rods", "loose"), [(1, 0), (8, 0), (30, 0), (100, 0), (1, 3), (4, 4), (30, 5)])
+@pytest.mark.parametrize(("rods", "loose"), [(1, 0), (3, 0), (8, 0), (30, 0), (100, 0), (1, 3), (4, 4), (30, 5)])
 def test_a_flat_ladder_of_any_length_has_one_motion(rods, loose):
     """Flat, every crank of a ladder of parallelograms seems to turn by itself: rods + 1 freedoms, of which one is a
     motion.  An arch of bars from its last tip to the ground adds its own, three less than hinges and bars count."""

@@ -72,10 +72,13 @@ internal sealed class VelocitySpace
     /// <summary>Number of independent velocities.</summary>
     public int Freedoms => _basis.Count;
 
-    /// <summary>Of a direction in a mixture, between -1 and 1, the same on every machine.</summary>
+    /// <summary>
+    /// Of a direction in a mixture, between -1 and 1, the same on every machine. As many rounds as there are directions are as many independent
+    /// mixtures, and no two directions go together in all of them, as they would by a rule like sin(a direction + b round): its mixtures span two.
+    /// </summary>
     /// <param name="direction">By its place.</param>
     /// <param name="round">Another mixture for each.</param>
-    public static double Weight(int direction, int round) => Trigonometry.Sin(12.9898 * (direction + 1) + 4.1414 * round);
+    public static double Weight(int direction, int round) => SplitMix.Around0(((ulong)round << 32) + (ulong)direction);
 
     /// <summary>A step along a mixture of all velocities, the same on every machine; zero where there are none.</summary>
     /// <param name="round">Another mixture for each.</param>

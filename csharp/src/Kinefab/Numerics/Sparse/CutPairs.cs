@@ -99,7 +99,7 @@ internal sealed class CutPairs
                 else if (edge != ParentEdges[node] && _depths[other] < _depths[node])
                 {
                     open.Push(edge);
-                    _labels[edge] = Number(edge);
+                    _labels[edge] = SplitMix.Bits((ulong)edge);
                     label[node] ^= _labels[edge];
                     label[other] ^= _labels[edge];
                     low[node] = Math.Min(low[node], _depths[other]);
@@ -171,14 +171,5 @@ internal sealed class CutPairs
         }
 
         return classes;
-    }
-
-    // Steele, Lea and Flood 2014, SplitMix.
-    private static ulong Number(int edge)
-    {
-        ulong z = unchecked((ulong)(edge + 1) * 0x9E3779B97F4A7C15);
-        z = unchecked((z ^ (z >> 30)) * 0xBF58476D1CE4E5B9);
-        z = unchecked((z ^ (z >> 27)) * 0x94D049BB133111EB);
-        return z ^ (z >> 31);
     }
 }

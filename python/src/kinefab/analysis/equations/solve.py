@@ -18,7 +18,7 @@ from scipy.sparse.csgraph import connected_components
 from scipy.sparse.linalg import splu
 
 from ...spatial import Array, BoolArray, IntArray
-from .system import State, System, summed
+from .system import State, System, repeated, summed
 
 CLOSED = 1e-13
 """Scaled residual at which a pose is closed."""
@@ -62,6 +62,7 @@ class Solver:
     def __init__(self, system: System, *, cautious: bool = False):
         self.system = system
         self.cautious = cautious
+        self._copies: dict[int, Solver] = {}
         n = system.bodies
         # What a row counts from inside of one body stands still, and ties that body to nothing.
         self._still = (system.body_a == system.body_b) & system.joining()[system.row]
@@ -140,6 +141,12 @@ class Solver:
         atoms = np.sort(order[starts[part] : starts[part + 1]])
         group, at = self._place[part]
         return self.system.part(atoms, group.rows[at], group.bodies[at])
+
+    def copies(self, count: int) -> Solver:
+        """Of the system side by side with itself, ``count`` times, see ``repeated``: every part is there so many times."""
+        if count not in self._copies:
+            self._copies[count] = Solver(repeated(self.system, count), cautious=self.cautious)
+        return self._copies[count]
 
     @cached_property
     def _atoms(self) -> tuple[IntArray, IntArray]:

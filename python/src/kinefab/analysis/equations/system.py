@@ -302,6 +302,15 @@ def repeated(system: System, times: int) -> System:
     return replace(system, row=np.tile(system.row, times) + system.rows * copy, **tiled | ends | sizes)
 
 
+def repeated_state(state: State, times: int) -> State:
+    """The same pose of every copy that ``repeated`` makes."""
+
+    def tiled(values: Array) -> Array:
+        return np.concatenate([values[:1], *[values[1:]] * times])
+
+    return State(tiled(state.rotation), tiled(state.shift), np.tile(state.angle, times))
+
+
 def exponential(w: Array) -> Array:
     """Rotation matrices of rotation vectors, shape (..., 3) to (..., 3, 3) (Rodrigues)."""
     angle = np.sqrt(np.einsum("...i,...i->...", w, w))

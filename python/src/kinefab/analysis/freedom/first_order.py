@@ -17,7 +17,7 @@ from scipy.linalg.lapack import dgeqrf, dgeqrf_lwork, dormqr
 from scipy.sparse import csr_matrix, diags
 
 from ...partition import Partition
-from ...spatial import Array, IntArray, cross, skew
+from ...spatial import Array, BoolArray, IntArray, cross, skew
 from ..equations.solve import DENSE, Solver
 from ..equations.system import State, System
 from .inverse import few_velocities
@@ -70,10 +70,19 @@ def moved_to_one_point(twists: Array, bodies: IntArray, system: System) -> Array
 
 def block_freedoms(solver: Solver, state: State) -> list[BlockFreedom]:
     """Every part of the solver's system, in the order of its part numbers."""
+    found = freedoms_of(solver, state, np.ones(solver.parts, dtype=bool))
+    return [found[part] for part in range(solver.parts)]
+
+
+def freedoms_of(solver: Solver, state: State, parts: BoolArray) -> dict[int, BlockFreedom]:
+    """As ``block_freedoms``, of some parts (a mask), by their numbers."""
     _, block_a, block_b = solver.system.linearise(state)
     sizes = solver.sizes(block_a, block_b)
     found: dict[int, BlockFreedom] = {}
     for group in solver.groups:
+        asked = np.flatnonzero(parts[group.members])
+        if not len(asked):
+            continue
         width = 6 * group.bodies.shape[1]
         if width > DENSE:
             part = int(group.members[0])
@@ -83,12 +92,12 @@ def block_freedoms(solver: Solver, state: State) -> list[BlockFreedom]:
             )
             found[part] = BlockFreedom(group.bodies[0], group.rows[0], rank, gap, basis)
             continue
-        ranks, gaps, vt = factored(normalised(solver.jacobians(group, block_a, block_b), sizes[group.rows]))
-        for i, part in enumerate(group.members.tolist()):
-            found[part] = BlockFreedom(
-                group.bodies[i], group.rows[i], int(ranks[i]), float(gaps[i]), vt[i, ranks[i] :].T
-            )
-    return [found[part] for part in range(solver.parts)]
+        jacobians, rows = solver.jacobians(group, block_a, block_b)[asked], group.rows[asked]
+        ranks, gaps, vt = factored(normalised(jacobians, sizes[rows]))
+        for i, part in enumerate(group.members[asked].tolist()):
+            bodies, rank = group.bodies[asked[i]], int(ranks[i])
+            found[part] = BlockFreedom(bodies, rows[i], rank, float(gaps[i]), vt[i, rank:].T)
+    return found
 
 
 def large_null_space(

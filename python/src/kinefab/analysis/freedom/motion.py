@@ -15,6 +15,7 @@ import numpy as np
 from ...spatial import Array
 from ..equations.solve import FEW, Solver
 from ..equations.system import State
+from .branches import NOISY_GAP, held_there, largest_branch, mixtures_move
 from .first_order import BlockFreedom, block_freedoms
 from .noise import moves_up_to_noise
 from .probes import OPEN, STEP, WHOLE, floor_of, kept_of, left_of, random_direction, trial
@@ -48,19 +49,14 @@ TELLING = 0.125
 way obstructs keeps the fourth root of the closing error, 1e-3 to 1e-2 where rows that nearly repeat each other hold up the closing."""
 BESIDE = 10.0
 """Times the error asked for up to which a trial step came back onto the rows."""
-MIXTURES = 3
-"""Of motions: by chance one in eight lies so near a single branch that it keeps all but a tenth of itself."""
 MOST_FORMS = 1_000_000
 """Squares of directions, times unknowns, up to which what second order leaves of many bodies' velocities is worth its time."""
 WAYS = 3
 """Of many bodies, from the start pose, while fewer motions are found than it has directions: the largest branch counts."""
 WALK = 3
 WALK_STEP = 0.05
-NOISY_GAP = 1e10
-"""A narrower gap between kept and repeated rows is none of rounding: the rows repeat each other as exactly as the CAD program
-solved them, and without a motion that uses the difference the mechanism would be locked."""
 NOISE = 1e-9
-"""The same of a residual at the start."""
+"""Residual at the start beyond which it is none of rounding."""
 MOVES = 1e-6
 """Share of a velocity up to which a body stands still in it."""
 
@@ -94,11 +90,14 @@ def finite_freedoms(solver: Solver, first_order: list[BlockFreedom], start: Stat
             doubtful[part] = not (noisy and moves_up_to_noise(solver.alone(part), first_order[part]))
         for step in PROBES[:2]:
             directions = _random_directions(blocks, np.flatnonzero(doubtful).tolist(), draw)
-            moved, left = trial(solver, blocks, start, directions, step, floor) if directions else ({}, floor)
+            if not directions:
+                break
+            moved, left, there = trial(solver, blocks, start, directions, step, floor)
             changed = _changed(directions, moved, SURVIVES * step)
             # what does not come back onto the rows may have kept its length for that alone
             beside = [p for p in directions if left[p] > BESIDE * floor[p]]
-            for part in sorted({*changed, *beside}):
+            held = held_there(solver, blocks, there, doubtful) if step == PROBES[1] else []
+            for part in sorted({*changed, *beside, *held}):
                 searched = _searched(solver, part, first_order[part])
                 if searched.mobility < first_order[part].mobility:
                     found[part] = searched
@@ -216,7 +215,7 @@ def _of_many(solver: Solver, first_order: BlockFreedom, start: State) -> FiniteF
                 if tried.mobility:
                     ways, share, _ = kept_of(solver, 0, tried, state, LONG_STEP)
                     tangent, is_sure = ways[:, share > HALF], not np.any((share > DIRECTION) & (share < WHOLE))
-                if is_sure and _mixtures_move(solver, 0, freedom, state, tangent, LONG_STEP, floor_of(solver, state)):
+                if is_sure and mixtures_move(solver, 0, freedom, state, tangent, LONG_STEP, floor_of(solver, state)):
                     break
                 if step == WALK + MOST_FURTHER - 1:
                     return None
@@ -235,8 +234,10 @@ def _beyond_doubt(solver: Solver, part: int, freedom: BlockFreedom, state: State
     ways, share, step = freedom.basis, np.ones(freedom.mobility), STEP
     for further in range(MOST_FURTHER):
         if further:
-            state, there = _further(solver, part, freedom, state)
-            freedom = there[part]
+            there, freedoms = _further(solver, part, freedom, state)
+            if there is state:  # no step led away, and none would from the same pose again
+                break
+            state, freedom = there, freedoms[part]
         if not freedom.mobility:
             return freedom.basis
         for step in PROBES:
@@ -244,47 +245,10 @@ def _beyond_doubt(solver: Solver, part: int, freedom: BlockFreedom, state: State
             if open_ <= min(BESIDE * floor[part], (TELLING * step) ** 4):
                 break
         ways, share = ways[:, share > DIRECTION], share[share > DIRECTION]
-        if not np.any(share < WHOLE) and _mixtures_move(solver, part, freedom, state, ways, step, floor):
+        if not np.any(share < WHOLE) and mixtures_move(solver, part, freedom, state, ways, step, floor):
             return ways
     ways = ways[:, share > HALF]
-    return ways if np.any(share < WHOLE) else _largest_branch(solver, part, freedom, state, ways, step, floor)
-
-
-def _largest_branch(
-    solver: Solver, part: int, freedom: BlockFreedom, state: State, ways: Array, step: float, floor: Array
-) -> Array:
-    """Of directions, shape (6 n, m), that are motions each, those that one branch has: the most found whose mixtures are motions too.
-    Steps along mixtures lead back to where branches cross."""
-    count, largest = ways.shape[1], list[int]()
-    for first in range(count):
-        branch = [first]
-        for k in range(1, count):
-            more = [*branch, (first + k) % count]
-            if _mixtures_move(solver, part, freedom, state, ways[:, more], step, floor):
-                branch = more
-        largest = branch if len(branch) > len(largest) else largest
-    return ways[:, largest]
-
-
-def _mixtures_move(
-    solver: Solver,
-    part: int,
-    freedom: BlockFreedom,
-    state: State,
-    ways: Array,
-    step: float,
-    floor: Array,
-) -> bool:
-    """Whether mixtures of directions, shape (6 n, m), are motions as these are.  Where branches of motions cross, the directions of
-    all survive, and of a mixture only what one branch has of it."""
-    draw = np.random.default_rng(19)
-    for _ in range(MIXTURES if ways.shape[1] > 1 else 0):
-        way = random_direction(ways, draw)
-        way /= np.linalg.norm(way)
-        left, _ = left_of(solver, part, freedom, state, way, step, floor)
-        if np.linalg.norm(left - way) > 1.0 - WHOLE:
-            return False
-    return True
+    return ways if np.any(share < WHOLE) else largest_branch(solver, part, freedom, state, ways, step, floor)
 
 
 def _found_far_away(
@@ -319,7 +283,7 @@ def _with_bodies_at_rest(solver: Solver, first_order: BlockFreedom, start: State
     if not 1 < first_order.mobility <= MOST_DIRECTIONS:
         return found
     for way in _velocities_at_rest(first_order):
-        left, _ = left_of(solver, 0, first_order, start, way, STEP)
+        left, *_ = left_of(solver, 0, first_order, start, way, STEP)
         if np.linalg.norm(left) < 1.0 - DIRECTION:
             continue
         twist = WALK_STEP * (way / np.abs(way).max()).reshape(-1, 6)
@@ -354,7 +318,7 @@ def _further(
     """A pose further away, and the first order there: of many random velocities the obstructed ones take the others
     along, so that the pose has hardly moved; what a trial step leaves of one is a motion that goes on."""
     random = random_direction(freedom.basis, np.random.default_rng(29))
-    way, _ = left_of(solver, part, freedom, state, random, LONG_STEP)
+    way, *_ = left_of(solver, part, freedom, state, random, LONG_STEP)
     if (size := np.abs(way).max()) > 0.0:
         twist = FURTHER * (way / size).reshape(-1, 6)
         state, _ = solver.project(

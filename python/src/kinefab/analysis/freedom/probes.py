@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from dataclasses import replace
 
 import numpy as np
 
 from ...spatial import Array, IntArray
-from ..equations.solve import Solver
-from ..equations.system import State
+from ..equations.solve import DENSE, Solver
+from ..equations.system import State, repeated_state
 from .first_order import BlockFreedom
 
 STEP = 1e-3
@@ -49,9 +50,9 @@ def trial(
     floor: Array | None = None,
     *,
     keep: bool = False,
-) -> tuple[dict[int, Array], Array]:
-    """Displacements (6 n of each part), over ``step``, after a step along each direction and back onto the rows; and the residual
-    of each part there.  What did not come back onto them has kept nothing, unless told to ``keep``.
+) -> tuple[dict[int, Array], Array, State]:
+    """Displacements (6 n of each part), over ``step``, after a step along each direction and back onto the rows; the residual
+    of each part there; and the pose.  What did not come back onto them has kept nothing, unless told to ``keep``.
 
     floor: see ``floor_of``, where it is known."""
     bodies = np.concatenate([first_order[p].bodies for p in directions])
@@ -65,7 +66,7 @@ def trial(
     moved = _displacement(solver, bodies, start, state) / step
     ends: list[int] = np.cumsum([6 * len(first_order[p].bodies) for p in directions]).tolist()
     own = zip(directions, [0, *ends], ends)
-    return {part: moved[at:end] * (keep or not stuck[part]) for part, at, end in own}, left
+    return {part: moved[at:end] * (keep or not stuck[part]) for part, at, end in own}, left, state
 
 
 def _displacement(solver: Solver, bodies: IntArray, start: State, end: State) -> Array:
@@ -90,16 +91,40 @@ def kept_of(
     basis = freedom.basis
     floor = floor_of(solver, state) if floor is None else floor
     for last in (*(False for _ in range(1, ROUNDS)), True):
-        tried = [
-            left_of(solver, part, freedom, state, direction, step, floor, keep=not last) for direction in basis.T
-        ]
-        u, s, _ = np.linalg.svd(np.array([left for left, _ in tried]).T, full_matrices=False)
-        open_ = max(residual for _, residual in tried)
+        left, open_ = left_of_each(solver, part, freedom, state, basis.T, step, floor, keep=not last)
+        u, s, _ = np.linalg.svd(left.T, full_matrices=False)
         some = s > HIDDEN / step
         if not some.any() or (open_ <= _most_open(floor, step)[part] and not np.any(some & (s < WHOLE))):
             break
         basis = u[:, some]
     return u, s, open_
+
+
+def left_of_each(
+    solver: Solver,
+    part: int,
+    freedom: BlockFreedom,
+    state: State,
+    directions: Array,
+    step: float,
+    floor: Array,
+    *,
+    keep: bool,
+) -> tuple[Array, float]:
+    """As ``left_of`` of several directions, shape (m, 6 n): what is left of each, and the largest residual.  All steps of a small
+    part are taken at once, each in a copy of its own."""
+    if solver.parts > 1 or 6 * len(freedom.bodies) > DENSE:
+        tried = [left_of(solver, part, freedom, state, way, step, floor, keep=keep) for way in directions]
+        return np.array([left for left, *_ in tried]), max(residual for _, residual, _ in tried)
+    ways = directions / np.abs(directions).max(axis=1)[:, None]
+    copies, states = solver.copies(2 * len(ways)), repeated_state(state, 2 * len(ways))
+    bodies = np.arange(len(states.rotation) - 1).reshape(2 * len(ways), -1) + 1
+    parts: list[int] = copies.part[bodies[:, 0]].tolist()
+    blocks = {p: replace(freedom, bodies=own[freedom.bodies - 1]) for p, own in zip(parts, bodies)}
+    wanted = dict(zip(parts, [*ways, *-ways]))
+    moved, residual, _ = trial(copies, blocks, states, wanted, step, np.full(copies.parts, floor[part]), keep=keep)
+    there, back = np.split(np.array([moved[p] for p in parts]), 2)
+    return 0.5 * (there - back) / np.linalg.norm(ways, axis=1)[:, None], float(residual.max())
 
 
 def left_of(
@@ -112,12 +137,12 @@ def left_of(
     floor: Array | None = None,
     *,
     keep: bool = False,
-) -> tuple[Array, float]:
-    """What trial steps both ways leave of a direction, as a share of its length, shape (6 n,); and the larger residual where they
-    ended, see ``trial``."""
+) -> tuple[Array, float, tuple[State, State]]:
+    """What trial steps both ways leave of a direction, as a share of its length, shape (6 n,); the larger residual where they
+    ended, see ``trial``; and the two poses."""
     direction = direction / np.abs(direction).max()
     there, back = (
         trial(solver, {part: freedom}, state, {part: way}, step, floor, keep=keep) for way in (direction, -direction)
     )
     left = 0.5 * (there[0][part] - back[0][part]) / np.linalg.norm(direction)
-    return left, max(float(there[1][part]), float(back[1][part]))
+    return left, max(float(there[1][part]), float(back[1][part])), (there[2], back[2])

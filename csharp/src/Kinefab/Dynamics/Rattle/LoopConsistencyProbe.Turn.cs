@@ -26,12 +26,15 @@ internal sealed partial class LoopConsistencyProbe
     // Speed of the joints that the rows hold against the fastest joint's, below which they are at the end of their way.
     private const double LeastPace = 0.1;
 
-    // Most that an angle gives on the way, rad: a hinge between parallel axes that is off by a twentieth has angles that give as much.
+    // Most that an angle gives on the way, rad: as much as where one axis of a plane loop is tilted by that.
     private const double MostGiven = 0.05;
 
     // Iterations in which angles yield as well before anchors are closed alone, and in all.
     private const int Yieldings = 3;
     private const int MostClosings = 20;
+
+    // Gap of the anchors that counts as closed, against the levers' length.
+    private const double MostGap = 1e-6;
 
     private bool IsSlowAllRound(int mixture, bool[] held)
     {

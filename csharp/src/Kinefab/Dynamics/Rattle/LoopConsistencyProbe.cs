@@ -47,9 +47,6 @@ internal sealed partial class LoopConsistencyProbe
     // Error at the end of the way against that of a constant speed.
     private const double MostGrowth = 3;
 
-    // Gap of the anchors there, against the levers' length.
-    private const double MostGap = 1e-6;
-
     private readonly LaneBatch<ScalarLane> _batch;
     private readonly double _length;
     private readonly CancellationToken _cancellation;
@@ -388,7 +385,7 @@ internal sealed partial class LoopConsistencyProbe
             Rebuild();
             if (i == Closings)
             {
-                return _batch.Work.MaxGap[0] <= MostGap * _length && Fastest() >= way / 2;
+                return Fastest() >= way / 2;
             }
 
             for (int row = 0; row < _batch.Work.Solution.Length; row++)

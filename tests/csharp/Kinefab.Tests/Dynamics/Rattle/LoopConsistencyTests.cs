@@ -61,13 +61,18 @@ internal sealed class LoopConsistencyTests
         Assert.That(LoopConsistencyProbe.Find(LoopScenes.Elbow(seed, 1e-2)).Single().Consistency, Is.EqualTo(LoopConsistency.Inconsistent));
     }
 
-    /// <summary>Their hinges come to the ends of their ways and to flat poses long before half a turn, and are off all the same. Few give too little at first.</summary>
+    /// <summary>
+    /// Their hinges come to the ends of their ways and to flat poses long before half a turn, and are off all the same. Few give too little at first.
+    /// </summary>
     [Test]
     public void Find_PolygonsWithATiltedHinge_NamesThem()
     {
         const int count = 200, leastNamed = 190;
-        int named = Enumerable.Range(0, count).Count(seed => LoopConsistencyProbe.Find(LoopScenes.Polygons(seed)).Exists(loop => loop.Consistency == LoopConsistency.Inconsistent));
+        int named = Enumerable.Range(0, count).Count(IsNamed);
         Assert.That(named, Is.GreaterThanOrEqualTo(leastNamed));
+
+        static bool IsNamed(int seed) =>
+            LoopConsistencyProbe.Find(LoopScenes.Polygons(seed)).Exists(loop => loop.Consistency == LoopConsistency.Inconsistent);
     }
 
     // Wide enough to bend out of its plane with little turn between neighbours; its hinges do not turn then.

@@ -5,7 +5,9 @@ using Kinefab.Numerics;
 
 namespace Kinefab.Tests.Dynamics.Rattle;
 
-/// <summary>Loops that a softly held axis would let move: some because an axis is off, some because they stand near a singular pose. All are closed to rounding.</summary>
+/// <summary>
+/// Loops that softly held axes would let move: some because an axis is off, some because they stand near a singular pose. All are closed to rounding.
+/// </summary>
 internal static class LoopScenes
 {
     /// <summary>
@@ -44,7 +46,9 @@ internal static class LoopScenes
         static D6Joint Ball() => new() { Twist = AxisMotion.Free, Swing1 = AxisMotion.Free, Swing2 = AxisMotion.Free };
     }
 
-    /// <summary>One to three plane polygons of four to six bars, one on the other; one hinge of one of them is tilted, so that it can turn only by what angles give.</summary>
+    /// <summary>
+    /// One to three plane polygons of four to six bars, one on the other; one hinge of one of them is tilted, so that it can turn only by what angles give.
+    /// </summary>
     public static MultibodySystem Polygons(int seed)
     {
         var random = new Random(seed);

@@ -9,12 +9,14 @@ namespace Kinefab.Dynamics.Rattle;
 /// <summary>
 /// Finds loops whose axes are a little off: locked by an angle that is small, but too large to be rounding, which an exact
 /// solution holds to the letter where Unity's soft joints let the mechanism move. Such a loop has a velocity that all
-/// anchors allow and that turns the axes apart only slowly; that stays so when it is followed for a finite way. Of a loop
-/// near a singular pose the same is true there, but not further on; of one that moves, or is singular, the axes' speed is 0;
-/// of a stiff frame it is of the order of the motion, or, where the frame is wide and bends, of the joints' motion.
+/// anchors allow and that turns the axes apart only slowly; that stays so when it is followed for a finite way, all round.
+/// Of a loop near a singular pose the same is true there, but not further on: if it moves to the letter it moves so, and if it
+/// does not it is a frame and stands. Of one that moves, or is singular, the axes' speed is 0; of a stiff frame it is of the
+/// order of the motion, or, where the frame is wide and bends, of the joints' motion. Islands are looked at in whole, what is
+/// suspect in one loop by loop.
 /// Masses play no part: each body has unit moments, and a mass that weighs the levers' mean length as one radian.
 /// </summary>
-internal sealed class LoopConsistencyProbe
+internal sealed partial class LoopConsistencyProbe
 {
     // Deterministic mixtures of all allowed velocities that are tried.
     private const int Mixtures = 2;
@@ -44,9 +46,6 @@ internal sealed class LoopConsistencyProbe
 
     // Error at the end of the way against that of a constant speed.
     private const double MostGrowth = 3;
-
-    // Gap of the anchors there, against the levers' length.
-    private const double MostGap = 1e-6;
 
     private readonly LaneBatch<ScalarLane> _batch;
     private readonly double _length;
@@ -98,10 +97,7 @@ internal sealed class LoopConsistencyProbe
         foreach (Island island in islands)
         {
             cancellation.ThrowIfCancellationRequested();
-            island.Loops = LoopConsistency.Inconsistent;
-            LoopConsistency fit = island.HasJointLoops && Array.Exists(island.Blocks, block => block.Angular != AngularForm.None)
-                ? new LoopConsistencyProbe(island, mechanism, cancellation).Fit()
-                : LoopConsistency.Exact;
+            LoopConsistency fit = Fit(island, mechanism, cancellation, out _);
             if (fit != LoopConsistency.Exact)
             {
                 var joints = new List<int>();
@@ -118,6 +114,40 @@ internal sealed class LoopConsistencyProbe
         }
 
         return found;
+    }
+
+    private static LoopConsistency Fit(Island island, MultibodySystem mechanism, CancellationToken cancellation, out bool hasFrame)
+    {
+        hasFrame = false;
+        island.Loops = LoopConsistency.Inconsistent;
+        if (!island.HasJointLoops || !Array.Exists(island.Blocks, block => block.Angular != AngularForm.None))
+        {
+            return LoopConsistency.Exact;
+        }
+
+        bool hasOneLoop = JointLoops.Of(island).Count == 1;
+        LoopConsistency fit = new LoopConsistencyProbe(island, mechanism, cancellation).Fit(hasOneLoop, out bool isHeld, out hasFrame);
+        if (hasOneLoop || !isHeld)
+        {
+            return fit;
+        }
+
+        // Each by itself: a frame would hide what is off in another loop, and what moves elsewhere would look as if the held joints were at their end.
+        // What no frame explains stays as it was found in all of them.
+        LoopConsistency worst = LoopConsistency.Exact;
+        foreach (Island loop in IslandFinder.FindLoops(island, mechanism))
+        {
+            LoopConsistency own = Fit(loop, mechanism, cancellation, out bool isFrame);
+            own = own == LoopConsistency.Inconsistent || isFrame ? own : new LoopConsistencyProbe(loop, mechanism, cancellation).FitOfWhatIsHeld(own, out isFrame);
+            worst = own > worst ? own : worst;
+            hasFrame |= isFrame;
+            if (worst == LoopConsistency.Inconsistent)
+            {
+                break;
+            }
+        }
+
+        return hasFrame || worst > fit ? worst : fit;
     }
 
     private static double Length(Island island)
@@ -139,9 +169,14 @@ internal sealed class LoopConsistencyProbe
         return sum > 0 ? sum / count : 1;
     }
 
-    private LoopConsistency Fit()
+    // Held: whether rows, taken to the letter, hold what their softness lets move; frame: that, and no axes are off. With more than one loop all that
+    // axes hold counts as off: which it is is told loop by loop.
+    private LoopConsistency Fit(bool hasOneLoop, out bool isHeld, out bool isFrame)
     {
         LoopConsistency fit = LoopConsistency.Exact;
+        isHeld = false;
+        isFrame = false;
+        bool hasCouplings = Array.Exists(_batch.Shape.Blocks, block => block.Coupling != null);
         for (int mixture = 1; mixture <= Mixtures && fit != LoopConsistency.Inconsistent; mixture++)
         {
             Restart(mixture);
@@ -149,7 +184,34 @@ internal sealed class LoopConsistencyProbe
                 && speed <= MostSpeed * Fastest(Rates()) && Follow(Way) && AngularError() <= MostGrowth * Way * speed && IsSlow(Allowed(), out double last))
             {
                 bool isNamed = Math.Min(first, Math.Min(speed, last)) >= LeastNamedSpeed;
-                fit = isNamed && IsHeld(mixture) ? LoopConsistency.Inconsistent : isNamed ? fit : LoopConsistency.Rounded;
+                bool[] held = Held(mixture, true);
+                bool isAny = Array.IndexOf(held, true) >= 0;
+
+                // A coupling is no axis that could be off: what moves without it is not held by axes.
+                bool isByAxes = isAny && (!hasCouplings || Array.IndexOf(Held(mixture, false), true) >= 0);
+                bool isOff = isByAxes && (!hasOneLoop || IsSlowAllRound(mixture, held));
+                isHeld |= isAny;
+                isFrame |= isAny && !isOff;
+                fit = isNamed && isOff ? LoopConsistency.Inconsistent : isNamed ? fit : LoopConsistency.Rounded;
+            }
+        }
+
+        // Of what a frame holds a mixture may have so little that it looks rounded.
+        return isFrame && fit == LoopConsistency.Rounded ? LoopConsistency.Exact : fit;
+    }
+
+    // The same of a loop of which a mixture may have had too little: of what is slow in it alone, however little that is.
+    private LoopConsistency FitOfWhatIsHeld(LoopConsistency fit, out bool isFrame)
+    {
+        isFrame = false;
+        for (int mixture = 1; mixture <= Mixtures && fit != LoopConsistency.Inconsistent; mixture++)
+        {
+            bool[] held = HeldAlone(mixture, out double speed);
+            if (speed >= LeastNamedSpeed)
+            {
+                bool isOff = speed <= MostSpeed && IsSlowAllRound(mixture, held);
+                isFrame |= !isOff;
+                fit = isOff ? LoopConsistency.Inconsistent : fit;
             }
         }
 
@@ -163,16 +225,62 @@ internal sealed class LoopConsistencyProbe
         Start(mixture);
     }
 
-    // Whether the rows, taken to the letter, hold a joint that their softness lets move. In a loop that is only near a
-    // singular pose there is a slow velocity too, far along its way, but its joints move without it.
-    private bool IsHeld(int mixture)
+    // Which joints that their softness lets move the rows hold, taken to the letter. In a loop that is only near a singular
+    // pose there is a slow velocity too, far along its way, but its joints move without it.
+    private bool[] Held(int mixture, bool holdsCouplings)
     {
         Restart(mixture);
         Allowed();
         Allowed();
         double[] before = Rates();
+        TakeToTheLetter(holdsCouplings);
+        double[] after = Rates();
+        var held = new bool[before.Length];
+        for (int n = 0; n < before.Length; n++)
+        {
+            held[n] = before[n] > LeastRate && after[n] < LeastRate * before[n];
+        }
+
+        return held;
+    }
+
+    // Which joints are moved by what the rows hold and not by what they allow, each against the fastest joint in its own motion, and the axes' speed
+    // against these joints'; 0 where there are none. Where nothing is allowed, what is left of it is rounding.
+    private bool[] HeldAlone(int mixture, out double speed)
+    {
+        Restart(mixture);
+        Allowed();
+        Allowed();
+        TakeToTheLetter(true);
+        double[] after = Rates();
+        Restart(mixture);
+        Allowed();
+        Allowed();
+        TakeWhatIsHeld();
+        double[] before = Rates();
+        double fastest = Fastest(before), freest = Fastest(after);
+        var held = new bool[before.Length];
+        for (int n = 0; n < before.Length; n++)
+        {
+            held[n] = before[n] > LeastRate * fastest && after[n] * fastest <= LeastRate * before[n] * Math.Max(freest, fastest);
+        }
+
+        double pace = Pace(before, held);
+        Impulses<ScalarLane>.NegativeSpeeds(_batch, false);
+        speed = pace > LeastSpeed ? MostAngular(_batch.Work.Solution) / pace : 0;
+        return held;
+    }
+
+    // Leaves of the velocities what the rows allow to the letter; the matrix is another one then.
+    private void TakeToTheLetter(bool holdsCouplings)
+    {
         DelassusMatrix<ScalarLane>.Assemble(_batch, LetterShare, LetterShare);
         _batch.ActiveSet?.AddToDiagonal(true);
+        for (int n = 0; n < _batch.Shape.Blocks.Length && !holdsCouplings; n++)
+        {
+            _batch.Matrix[_batch.Shape.Pattern.Diagonal(n)] *= _batch.Shape.Blocks[n].Coupling != null ? DelassusMatrix<ScalarLane>.UnconstrainedShare : 1;
+        }
+
         DelassusMatrix<ScalarLane>.Factor(_batch);
         for (int i = 0; i < LetterProjections; i++)
         {
@@ -180,17 +288,6 @@ internal sealed class LoopConsistencyProbe
             DelassusMatrix<ScalarLane>.Solve(_batch, _batch.Work.Solution);
             Impulses<ScalarLane>.Apply(_batch, _batch.Work.Solution);
         }
-
-        double[] after = Rates();
-        for (int n = 0; n < before.Length; n++)
-        {
-            if (before[n] > LeastRate && after[n] < LeastRate * before[n])
-            {
-                return true;
-            }
-        }
-
-        return false;
     }
 
     // Speed of each joint: of its bodies' turn and of its anchors, against the levers' length.
@@ -288,7 +385,7 @@ internal sealed class LoopConsistencyProbe
             Rebuild();
             if (i == Closings)
             {
-                return _batch.Work.MaxGap[0] <= MostGap * _length && Fastest() >= way / 2;
+                return Fastest() >= way / 2;
             }
 
             for (int row = 0; row < _batch.Work.Solution.Length; row++)

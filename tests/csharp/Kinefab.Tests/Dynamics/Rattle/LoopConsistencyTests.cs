@@ -48,6 +48,33 @@ internal sealed class LoopConsistencyTests
         Assert.That(LoopConsistencyProbe.Find(new RandomLoop(seed).System), Is.Empty);
     }
 
+    /// <summary>
+    /// Closed to the letter, it stands, and nearly bends: what is slow ends beside where it stands, on one side at least. It was taken for axes that are off,
+    /// and gave by any angle; the loop beside it is judged by itself.
+    /// </summary>
+    [Test]
+    public void Find_FrameNearASingularPose_SaysWhatTheLoopBesideItIs([Values(2, 5, 16, 23, 24, 28, 47, 50)] int seed)
+    {
+        Assert.That(LoopConsistencyProbe.Find(LoopScenes.Elbow(seed, null)), Is.Empty);
+        Assert.That(LoopConsistencyProbe.Find(LoopScenes.Elbow(seed, 0)), Is.Empty);
+        Assert.That(LoopConsistencyProbe.Find(LoopScenes.Elbow(seed, 1e-5)).Single().Consistency, Is.EqualTo(LoopConsistency.Rounded));
+        Assert.That(LoopConsistencyProbe.Find(LoopScenes.Elbow(seed, 1e-2)).Single().Consistency, Is.EqualTo(LoopConsistency.Inconsistent));
+    }
+
+    /// <summary>
+    /// Their hinges come to the ends of their ways and to flat poses long before half a turn, and are off all the same. Few give too little at first.
+    /// </summary>
+    [Test]
+    public void Find_PolygonsWithATiltedHinge_NamesThem()
+    {
+        const int count = 200, leastNamed = 190;
+        int named = Enumerable.Range(0, count).Count(IsNamed);
+        Assert.That(named, Is.GreaterThanOrEqualTo(leastNamed));
+
+        static bool IsNamed(int seed) =>
+            LoopConsistencyProbe.Find(LoopScenes.Polygons(seed)).Exists(loop => loop.Consistency == LoopConsistency.Inconsistent);
+    }
+
     // Wide enough to bend out of its plane with little turn between neighbours; its hinges do not turn then.
     [TestCase(8)]
     [TestCase(10)]

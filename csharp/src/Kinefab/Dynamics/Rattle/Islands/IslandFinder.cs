@@ -98,6 +98,38 @@ internal static class IslandFinder
         }
     }
 
+    /// <summary>Each of an island's <see cref="JointLoops"/> as an island of its own, without couplings.</summary>
+    public static List<Island> FindLoops(Island island, MultibodySystem mechanism)
+    {
+        var loops = new List<Island>();
+        foreach (int[] blocks in JointLoops.Of(island))
+        {
+            var builder = new Builder(mechanism.Bodies);
+            var moving = new SortedSet<int>();
+            foreach (int n in blocks)
+            {
+                moving.UnionWith(island.Blocks[n].Bodies);
+            }
+
+            foreach (int body in moving)
+            {
+                if (body < island.MovingBodies)
+                {
+                    builder.AddMoving(island.Bodies[body]);
+                }
+            }
+
+            foreach (int n in blocks)
+            {
+                builder.Add(island.Blocks[n].Joint!, island.Blocks[n].Index);
+            }
+
+            loops.Add(builder.Build());
+        }
+
+        return loops;
+    }
+
     private static bool Holds(JointModel joint) => !joint.IsBroken && !joint.Layout().IsEmpty;
 
     private sealed class Builder

@@ -1,5 +1,5 @@
-using System;
 using System.Collections.Generic;
+using System.Linq;
 using Kinefab.Kinematics;
 using Kinefab.Numerics;
 using NUnit.Framework;
@@ -9,9 +9,10 @@ namespace Kinefab.Tests.Numerics;
 /// <summary>Numbers that look random, and the mixtures of directions that are made of them.</summary>
 public class SplitMixTests
 {
-    [Test]
-    public void Bits_FirstPlaces_AreThoseOfTheReference() =>
-        Assert.That(new[] { SplitMix.Bits(0), SplitMix.Bits(1), SplitMix.Bits(2) }, Is.EqualTo(new[] { 0xE220A8397B1DCDAFUL, 0x6E789E6AA1B965F4UL, 0x06C45D188009454FUL }));
+    [TestCase(0UL, 0xE220A8397B1DCDAFUL)]
+    [TestCase(1UL, 0x6E789E6AA1B965F4UL)]
+    [TestCase(2UL, 0x06C45D188009454FUL)]
+    public void Bits_FirstPlaces_AreThoseOfTheReference(ulong place, ulong bits) => Assert.That(SplitMix.Bits(place), Is.EqualTo(bits));
 
     [Test]
     public void Around0_ManyPlaces_IsEvenFromMinusOneToOne()
@@ -41,7 +42,7 @@ public class SplitMixTests
             }
         }
 
-        IReadOnlyList<double> values = new SingularValues(mixtures).Values;
+        double[] values = new SingularValues(mixtures).Values.ToArray();
         Assert.That(values[^1], Is.GreaterThan(0.001 * values[0]));
     }
 
@@ -54,7 +55,7 @@ public class SplitMixTests
         var known = new List<double[]>();
         for (int round = 0; round < 16; round++)
         {
-            double[] start = Array.ConvertAll(new[] { 0, 1, 2, 3, 4, 5 }, direction => VelocitySpace.Weight(direction, round));
+            double[] start = Enumerable.Range(0, 6).Select(direction => VelocitySpace.Weight(direction, round)).ToArray();
             if (squares.Near(start, known, default) is { } weights)
             {
                 known.Add(weights);

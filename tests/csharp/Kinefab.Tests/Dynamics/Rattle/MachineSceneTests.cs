@@ -11,7 +11,7 @@ using NUnit.Framework;
 namespace Kinefab.Tests.Dynamics.Rattle;
 
 /// <summary>
-/// What is asked of machines that are driven, struck and turned over: closed, no energy from nothing, no stop where shorter steps go on, steps of a like
+/// What is asked of machines that are driven, struck and turned over: closed, no more energy than at the start, no stop where shorter steps go on, steps of a like
 /// cost, and the motion of shorter steps. KINEFAB_SCENES sets how many are run, KINEFAB_FIRST_SCENE the first seed.
 /// </summary>
 internal sealed class MachineSceneTests
@@ -169,7 +169,7 @@ internal sealed class MachineSceneTests
         World world = scene.Build();
         double dt = scene.Step / finer, struck = scene.Acts.Count > 0 ? scene.Acts.Min(act => act.Time) : double.PositiveInfinity;
         double fall = world.Bodies.Where(body => !body.IsKinematic).Sum(body => body.Settings.Mass) * world.Gravity.LengthSquared * 2 * dt * dt;
-        double first = 0, lowest = 0, largest = 0, gain = 0, open = 0, work = 0;
+        double first = Energy(world), lowest = first, largest = 0, gain = 0, open = 0, work = 0;
         var costs = new List<double>();
         var poses = new List<Pose[]>();
         for (int i = 1; i <= steps * finer && (finer == 1 || world.Stops == 0); i++)
@@ -179,9 +179,9 @@ internal sealed class MachineSceneTests
             costs.Add(1 + (world.SubstepWork - work) / Math.Max(1, world.Joints.Count));
             work = world.SubstepWork;
             open = world.Joints.Max(joint => Math.Max(open, joint.Drift.Distance));
-            double springs = MachineScene.SpringEnergy(world), energy = world.KineticEnergy + world.PotentialEnergy + springs;
-            (first, lowest) = i == 1 ? (energy, energy) : (first, Math.Min(lowest, energy));
-            largest = Math.Max(largest, Math.Max(world.KineticEnergy + fall + springs, energy - lowest));
+            double energy = Energy(world);
+            lowest = Math.Min(lowest, energy);
+            largest = Math.Max(largest, Math.Max(world.KineticEnergy + fall + MachineScene.SpringEnergy(world), energy - lowest));
             gain = scene.IsPassive && i * dt < struck - dt ? Math.Max(gain, (energy - first) / largest) : gain;
             if (i % finer == 0)
             {
@@ -194,6 +194,8 @@ internal sealed class MachineSceneTests
         bool isStalled = world.Findings.Diagnostics.Any(found => found.Code == DiagnosticCodes.DriveStalled);
         return new Course(poses, scene.Size, isInexact ? 0 : open, gain, world.Stops, costs[costs.Count / 2], costs[^1], isStalled);
     }
+
+    private static double Energy(World world) => world.KineticEnergy + world.PotentialEnergy + MachineScene.SpringEnergy(world);
 
     // The largest, of the machine's size and in radians.
     private static double Difference(Course a, Course b)

@@ -23,7 +23,7 @@ internal sealed partial class ActiveSet<V>
 
     // Of the speed that it was asked for at first, less is a drive that stands, if it also turns by less in a step, rad, or moves by less of what the
     // mechanism reaches.
-    private const double LeastMoved = 1e-3;
+    private const double LeastMoved = 1e-2;
     private const double LeastWay = 1e-4;
 
     // In a step a drive to a goal begins with no more than this turn, rad, or this share of what the mechanism reaches.
@@ -142,16 +142,14 @@ internal sealed partial class ActiveSet<V>
             double speed = Math.Abs(StartSpeed(scalar));
             bool stands = scalar.IsStalled && speed <= LeastMoved * Math.Abs(asked) / scalar.Pace
                 && speed * dt <= LeastWay * (scalar.Built.Has(RowFlags.Angular) ? 1 : FarthestBody(scalar));
-            bool rests = scalar.Slowdowns > MostSlowdowns;
+            int before = scalar.Slowdowns;
+            bool rests = before > MostSlowdowns;
             scalar.SlowDown(isFollowed ? Math.Max(0, scalar.Slowdowns - 1)
                 : stands || rests ? Resting
                 : Math.Min(MostSlowdowns, scalar.Slowdowns + Slowdown));
             isAny |= scalar.Slowdowns > 0;
-            if (!isFollowed && scalar.Slowdowns == Resting)
-            {
-                scalar.RestingFreedom = double.NaN;
-                comesToRest = true;
-            }
+            scalar.RestingFreedom = rests ? scalar.RestingFreedom : double.NaN;
+            comesToRest |= before < scalar.Slowdowns && scalar.Slowdowns == Resting;
         }
 
         if (comesToRest)

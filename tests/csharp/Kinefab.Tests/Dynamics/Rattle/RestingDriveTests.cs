@@ -1,0 +1,92 @@
+using System;
+using System.IO;
+using System.Linq;
+using Kinefab.Diagnostics;
+using Kinefab.Document;
+using Kinefab.Dynamics;
+using Kinefab.Tests.Kinematics;
+using Kinefab.Validation;
+using NUnit.Framework;
+
+namespace Kinefab.Tests.Dynamics.Rattle;
+
+/// <summary>
+/// Drives without limit of force that come to a stop or a dead point: they stand there at the price of a plain step, and go on as soon as they can. Each
+/// step had asked for a thousandth less, or for more again, and taken up to 2,000 parts for it.
+/// </summary>
+internal sealed class RestingDriveTests
+{
+    private const double Dt = 0.02;
+
+    /// <summary>A drive that stands at a stop goes on when that is taken away: it had needed twenty steps to come back to its speed, in steps of any length.</summary>
+    [TestCase(60, 30)]
+    [TestCase(-60, -20)]
+    public void DriveAt_StopThatIsTakenAway_GoesOnAtOnce(double speed, double stop)
+    {
+        const int stood = 100, after = 10;
+        var joint = new HingeJoint
+        {
+            Axis = Kinefab.Numerics.Vector3d.UnitZ,
+            UseLimits = true,
+            Limits = new JointLimits { Min = Math.Min(stop, -20), Max = Math.Max(stop, 30) },
+        };
+        World world = SmallScene.Create(joint, solver: SolverKind.Exact);
+        world.Joints[0].DriveAt(Coordinate.Angle, speed);
+        Run(world, stood);
+        Assert.That(world.Joints[0].Coordinate(Coordinate.Angle), Is.EqualTo(stop).Within(1e-6));
+
+        var hinge = (WorldHingeJoint)world.Joints[0];
+        hinge.Settings = hinge.Settings with { Limits = new JointLimits { Min = -150, Max = 150 } };
+        hinge.DriveAt(Coordinate.Angle, speed);
+        Run(world, after);
+        Assert.That((hinge.Coordinate(Coordinate.Angle) - stop) / speed, Is.GreaterThan(0.5 * after * Dt));
+    }
+
+    /// <summary>A slider that drives its crank to a dead point stands there; each step on took 7 parts and more.</summary>
+    [TestCase("M07", 1)]
+    [TestCase("M07", -1)]
+    [TestCase("M08", 1)]
+    [TestCase("M08", -1)]
+    public void DriveAt_ToADeadPoint_StandsThereAtThePriceOfAStep(string fixture, int side)
+    {
+        World world = World.Create(ValidScene.Load(Path.Combine(Scenario.Folder, "..", "..", "fixtures", "mechanisms", fixture + ".kinefab")), SolverKind.Exact);
+        WorldJoint slider = world.Joints.Single(joint => joint.Id == "slider" && joint.FreeCoordinates.Contains(Coordinate.X));
+        slider.DriveAt(Coordinate.X, 0.4 * side);
+        Run(world, 200);
+        double work = world.SubstepWork, place = slider.Coordinate(Coordinate.X);
+        Run(world, 100);
+        Assert.That(slider.Coordinate(Coordinate.X), Is.EqualTo(place).Within(2e-3));
+        Assert.That((world.SubstepWork - work) / world.Joints.Count / 100, Is.LessThanOrEqualTo(3));
+        Assert.That(world.Stops, Is.Zero);
+        Assert.That(world.Findings.Diagnostics.Select(found => found.Code), Does.Contain(DiagnosticCodes.DriveStalled));
+    }
+
+    /// <summary>
+    /// A motor in a loop that it throws through dead points: what it might give followed from what the bodies had, so that each throw allowed a wider one,
+    /// to 2e15 J and 472 stops.
+    /// </summary>
+    [Test]
+    public void Step_MotorThatThrowsItsLoopAbout_GivesNoMoreEachTime()
+    {
+        var scene = new MachineScene(3000232);
+        World world = scene.Build();
+        double most = 0;
+        for (int i = 1; i <= 200; i++)
+        {
+            scene.Before(world, i * scene.Step, scene.Step);
+            world.Step(scene.Step);
+            most = Math.Max(most, world.KineticEnergy);
+        }
+
+        Assert.That(most, Is.LessThanOrEqualTo(1e9));
+        Assert.That(world.Stops, Is.Zero);
+    }
+
+    private static void Run(World world, int steps)
+    {
+        for (int i = 0; i < steps; i++)
+        {
+            world.Step(Dt);
+        }
+    }
+}

@@ -76,11 +76,12 @@ internal sealed class StiffSpringCorrection
 
         LaneTransfer<ScalarLane>.EndStep(batch);
         Note(batch, _linear, _angular);
-        bool hasAnswer = TryAnswer(batch, scalars);
-        while (hasAnswer && scalars.TakeOutOverloaded(batch.Work.Move))
+        Array.Copy(batch.Bodies, batch.Work.BodiesBefore, batch.Bodies.Length);
+        bool hasAnswer = TryAnswer(batch, scalars, out bool isFinite);
+        while (isFinite && scalars.TakeOutOverloaded(batch.Work.Move))
         {
             TakeBack(batch);
-            hasAnswer = TryAnswer(batch, scalars);
+            hasAnswer = TryAnswer(batch, scalars, out isFinite);
         }
 
         if (!hasAnswer)
@@ -103,37 +104,36 @@ internal sealed class StiffSpringCorrection
         }
     }
 
-    private static void TakeBack(LaneBatch<ScalarLane> batch)
-    {
-        double[] solution = batch.Work.Solution;
-        for (int i = 0; i < solution.Length; i++)
-        {
-            solution[i] = -batch.Work.Move[i];
-        }
+    // Not by the opposite impulses: what an answer that ran away left would be its rounding.
+    private static void TakeBack(LaneBatch<ScalarLane> batch) => Array.Copy(batch.Work.BodiesBefore, batch.Bodies, batch.Bodies.Length);
 
-        Impulses<ScalarLane>.Apply(batch, solution);
-    }
-
-    // False where the rows leave it open; what was applied by then is finite.
-    private static bool TryAnswer(LaneBatch<ScalarLane> batch, ActiveSet<ScalarLane> scalars)
+    // False where the rows leave it open, or where it runs away: what is left is more than there was.
+    private static bool TryAnswer(LaneBatch<ScalarLane> batch, ActiveSet<ScalarLane> scalars, out bool isFinite)
     {
         double[] solution = batch.Work.Solution;
         double[] sum = batch.Work.Move;
         RattleStep<ScalarLane>.Factor(batch, false);
         batch.Work.Active[0] = 1;
         Array.Clear(sum, 0, sum.Length);
-        for (int pass = 0; pass < Passes; pass++)
+        isFinite = true;
+        double first = double.PositiveInfinity;
+        for (int pass = 0; ; pass++)
         {
             Impulses<ScalarLane>.NegativeSpeeds(batch);
             scalars.AddTargets();
             scalars.SubtractCorrections(sum);
-            DelassusMatrix<ScalarLane>.Solve(batch, solution);
-            foreach (double impulse in solution)
+            double left = Largest(solution);
+            if (left > first || pass == Passes)
             {
-                if (!Finite.Is(impulse))
-                {
-                    return false;
-                }
+                return !(left > first);
+            }
+
+            first = pass == 0 ? left : first;
+            DelassusMatrix<ScalarLane>.Solve(batch, solution);
+            isFinite = Finite.Is(Largest(solution));
+            if (!isFinite)
+            {
+                return false;
             }
 
             Impulses<ScalarLane>.Apply(batch, solution);
@@ -142,7 +142,17 @@ internal sealed class StiffSpringCorrection
                 sum[i] += solution[i];
             }
         }
+    }
 
-        return true;
+    // Unlike a comparison, this keeps NaN.
+    private static double Largest(double[] vector)
+    {
+        double most = 0;
+        foreach (double number in vector)
+        {
+            most = Math.Max(most, Math.Abs(number));
+        }
+
+        return most;
     }
 }

@@ -16,6 +16,8 @@ UP = np.array([0.0, 1.0, 0.0])
 """Normal of a vertex that no face with an area uses."""
 TOGETHER = 25_000
 """Triangles of meshes that are shaded in one go, as far as the processor's cache goes."""
+NOTHING = 1e-12
+"""What a normal has less of along an axis is rounding, which each processor's arc cosine does in its own way."""
 FLAT = 1e-30
 """Twice the area of a triangle, as a share of the square of the mesh's size, below which it has no direction."""
 
@@ -244,5 +246,6 @@ def _twins(start: IntArray, end: IntArray) -> tuple[IntArray, IntArray]:
 def _unit(normals: Array) -> Array:
     length = np.sqrt(np.einsum("ij,ij->i", normals, normals))
     normals /= np.where(length > 0.0, length, 1.0)[:, None]
+    normals[np.abs(normals) < NOTHING] = 0.0
     normals[length <= 0.0] = UP
     return normals

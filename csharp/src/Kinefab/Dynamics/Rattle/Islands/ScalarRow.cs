@@ -131,6 +131,9 @@ internal struct ScalarRow
     /// <summary>Which way it was asked to go then: the sign of its speed.</summary>
     public int SlowdownSide;
 
+    /// <summary>Speed of the row where the step began, before which its pace was set.</summary>
+    public double PaceSpeed;
+
     /// <summary>What freedom a drive that rests had when it came to rest, see <see cref="HeldDrives.Wake"/>; NaN: it is not measured yet.</summary>
     public double RestingFreedom;
 

@@ -102,6 +102,7 @@ internal sealed partial class ActiveSet<V>
                 scalar.SlowDown(0);
             }
 
+            scalar.PaceSpeed = scalar.IsActive ? StartSpeed(scalar) : 0;
             if (!scalar.IsEndlessDrive || !scalar.Built.Has(RowFlags.Motion))
             {
                 continue;
@@ -136,17 +137,19 @@ internal sealed partial class ActiveSet<V>
                 continue;
             }
 
-            double asked = scalar.Built.VelocityTarget;
-            scalar.SlowdownSide = Side(asked);
-            bool isFollowed = !scalar.IsStalled && StartSpeed(scalar) * scalar.SlowdownSide >= LeastFollowed * Math.Abs(asked) - tolerance;
-            double speed = Math.Abs(StartSpeed(scalar));
-            bool stands = scalar.IsStalled && speed <= LeastMoved * Math.Abs(asked) / scalar.Pace
-                && speed * dt <= LeastWay * (scalar.Built.Has(RowFlags.Angular) ? 1 : FarthestBody(scalar));
+            double asked = Math.Abs(scalar.Built.VelocityTarget);
+            scalar.SlowdownSide = Side(scalar.Built.VelocityTarget);
+            double speed = StartSpeed(scalar) * scalar.SlowdownSide;
+            bool isFollowed = !scalar.IsStalled && speed >= LeastFollowed * asked - tolerance;
+            bool comes = speed > scalar.PaceSpeed * scalar.SlowdownSide + tolerance && speed > 0;
+            bool stands = scalar.IsStalled && !comes && Math.Abs(speed) <= LeastMoved * asked / scalar.Pace
+                && Math.Abs(speed) * dt <= LeastWay * (scalar.Built.Has(RowFlags.Angular) ? 1 : FarthestBody(scalar));
             int before = scalar.Slowdowns;
             bool rests = before > MostSlowdowns;
-            scalar.SlowDown(isFollowed ? Math.Max(0, scalar.Slowdowns - 1)
+            scalar.SlowDown(isFollowed ? Math.Max(0, before - 1)
                 : stands || rests ? Resting
-                : Math.Min(MostSlowdowns, scalar.Slowdowns + Slowdown));
+                : comes ? before
+                : Math.Min(MostSlowdowns, before + Slowdown));
             isAny |= scalar.Slowdowns > 0;
             scalar.RestingFreedom = rests ? scalar.RestingFreedom : double.NaN;
             comesToRest |= before < scalar.Slowdowns && scalar.Slowdowns == Resting;

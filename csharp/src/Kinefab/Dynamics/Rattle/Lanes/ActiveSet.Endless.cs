@@ -21,8 +21,8 @@ internal sealed partial class ActiveSet<V>
     private const int Resting = 60;
     private const int Awake = 4;
 
-    // Of the speed that it was asked for at first, less is a drive that stands, if it also turns by less in a step, rad, or moves by less of what the
-    // mechanism reaches.
+    // Of the speed that it was asked for at first, one that gains more in a step still comes, and one that has less stands, if it also turns by less in a
+    // step, rad, or moves by less of what the mechanism reaches.
     private const double LeastMoved = 1e-2;
     private const double LeastWay = 1e-4;
 
@@ -141,8 +141,9 @@ internal sealed partial class ActiveSet<V>
             scalar.SlowdownSide = Side(scalar.Built.VelocityTarget);
             double speed = StartSpeed(scalar) * scalar.SlowdownSide;
             bool isFollowed = !scalar.IsStalled && speed >= LeastFollowed * asked - tolerance;
-            bool comes = speed > scalar.PaceSpeed * scalar.SlowdownSide + tolerance && speed > 0;
-            bool stands = scalar.IsStalled && !comes && Math.Abs(speed) <= LeastMoved * asked / scalar.Pace
+            double little = LeastMoved * asked / scalar.Pace;
+            bool comes = speed > Math.Max(0, scalar.PaceSpeed * scalar.SlowdownSide) + little;
+            bool stands = scalar.IsStalled && Math.Abs(speed) <= little
                 && Math.Abs(speed) * dt <= LeastWay * (scalar.Built.Has(RowFlags.Angular) ? 1 : FarthestBody(scalar));
             int before = scalar.Slowdowns;
             bool rests = before > MostSlowdowns;

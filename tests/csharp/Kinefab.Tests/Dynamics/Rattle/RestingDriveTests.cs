@@ -77,7 +77,7 @@ internal sealed class RestingDriveTests
         };
     }
 
-    /// <summary>A slider that drives its crank to a dead point stands there; each step on took 7 parts and more.</summary>
+    /// <summary>A slider that drives its crank to a dead point stands there, swings little, and is named.</summary>
     [TestCase("M07", 1)]
     [TestCase("M07", -1)]
     [TestCase("M08", 1)]

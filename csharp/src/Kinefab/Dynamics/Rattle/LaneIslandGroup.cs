@@ -224,7 +224,7 @@ internal sealed class LaneIslandGroup<V> : IslandGroup
         int stops = _controller.DampedSteps;
         _controller.Advance(dt, tolerance, ref History(index, lane), _stills[index * Lane<V>.Width + lane], free.HasFailed(lane), isMoved);
         Note(_controller, island, stops);
-        memory?.Save(_spare, _controller.DampedSteps == stops);
+        memory?.Save(_spare, dt, _controller.DampedSteps == stops);
         axes?.TakeOver(lane, _spare);
         GeometricStiffness<ScalarLane>.Estimate(_spare, _spare.VelocityImpulses, dt / 2);
         _spare.Work.Active[0] = 1;

@@ -56,7 +56,7 @@ internal sealed class ScalarIslandGroup : IslandGroup
             Note(_controllers[i], _islands[i], stops);
             if (_controllers[i].DampedSteps == stops)
             {
-                _corrections[i]?.Apply(batch);
+                _corrections[i]?.Apply(batch, dt);
             }
 
             LaneTransfer<ScalarLane>.EndStep(batch);

@@ -105,19 +105,20 @@ internal sealed class LimitedSceneTests
 
     /// <summary>
     /// The answers of springs of 2e8 N/m between grams ran away, and taken back by the opposite impulses left their rounding: steps showed up to 1e10 J
-    /// of a motion of 30, and the next was right again.
+    /// of a motion of 30, and the next was right again. Of slerp drives of 3e7 N m one step showed 2e6 J of 600, that met all rows (5000047).
     /// </summary>
-    [Test]
-    public void Step_AnswerOfStiffSpringsRunsAway_ShowsTheEnergyOfItsMotion()
+    [TestCase(3002100)]
+    [TestCase(5000047)]
+    public void Step_AnswerOfStiffSpringsRunsAway_ShowsTheEnergyOfItsMotion(int seed)
     {
-        var scene = new LimitedScene(3002100);
+        var scene = new LimitedScene(seed);
         var solver = new RattleSolver(scene.System, new List<InconsistentLoop>());
         double start = scene.Energy();
-        for (int i = 1; i <= 195; i++)
+        for (int i = 1; i <= 196; i++)
         {
             scene.Drive(i * scene.Step);
             solver.Step(scene.Step);
-            Assert.That(scene.Energy(), Is.LessThanOrEqualTo(start * (1 + 1e-3)), $"step {i}");
+            Assert.That(scene.Energy(), Is.LessThanOrEqualTo(start + 1e-3 * Math.Abs(start)), $"step {i}");
         }
     }
 

@@ -38,12 +38,13 @@ internal sealed class AloneMemory
 
     /// <summary>Where a step that was made alone ends.</summary>
     /// <param name="batch">At its end.</param>
+    /// <param name="dt">Step, s.</param>
     /// <param name="isSolved">Whether no part of it stood still.</param>
-    public void Save(LaneBatch<ScalarLane> batch, bool isSolved)
+    public void Save(LaneBatch<ScalarLane> batch, double dt, bool isSolved)
     {
         if (isSolved)
         {
-            _correction.Apply(batch);
+            _correction.Apply(batch, dt);
         }
 
         Array.Copy(batch.Scalars!.Rows, _rows, _rows.Length);

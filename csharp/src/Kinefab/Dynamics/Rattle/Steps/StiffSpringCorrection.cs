@@ -14,6 +14,9 @@ internal sealed class StiffSpringCorrection
     // Of the solve, since the matrix's compliance leaves rows speed, see VelocityProjection.
     private const int Passes = 3;
 
+    // Of the energy of motion, or of what forces give in the first steps from rest, the most that an answer may leave: more is none of the motion's.
+    private const double MostShown = 4;
+
     private readonly Bodies _bodies;
 
     // The moving ones, in the world.
@@ -65,7 +68,9 @@ internal sealed class StiffSpringCorrection
     }
 
     /// <summary>Where a step ends, with the rows built there.</summary>
-    public void Apply(LaneBatch<ScalarLane> batch)
+    /// <param name="batch">Of the island.</param>
+    /// <param name="dt">Step, s.</param>
+    public void Apply(LaneBatch<ScalarLane> batch, double dt)
     {
         ActiveSet<ScalarLane> scalars = batch.ActiveSet!;
         _isApplied = scalars.BeginCorrection();
@@ -77,6 +82,7 @@ internal sealed class StiffSpringCorrection
         LaneTransfer<ScalarLane>.EndStep(batch);
         Note(batch, _linear, _angular);
         Array.Copy(batch.Bodies, batch.Work.BodiesBefore, batch.Bodies.Length);
+        double most = MostShown * new EnergyAudit(batch, dt, 0).Moving;
         bool hasAnswer = TryAnswer(batch, scalars, out bool isFinite);
         while (isFinite && scalars.TakeOutOverloaded(batch.Work.Move))
         {
@@ -84,7 +90,7 @@ internal sealed class StiffSpringCorrection
             hasAnswer = TryAnswer(batch, scalars, out isFinite);
         }
 
-        if (!hasAnswer)
+        if (!hasAnswer || !(new EnergyAudit(batch, dt, 0).Kinetic <= most))
         {
             TakeBack(batch);
         }

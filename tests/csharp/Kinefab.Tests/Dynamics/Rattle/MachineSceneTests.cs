@@ -11,8 +11,8 @@ using NUnit.Framework;
 namespace Kinefab.Tests.Dynamics.Rattle;
 
 /// <summary>
-/// What is asked of machines that are driven, struck and turned over: closed, no more energy than at the start, no stop where shorter steps go on, steps of a like
-/// cost, and the motion of shorter steps. KINEFAB_SCENES sets how many are run, KINEFAB_FIRST_SCENE the first seed.
+/// What is asked of machines that are driven, struck and turned over: closed, no more energy than at the start, no stop where shorter steps go on, steps of a
+/// like cost, and the motion of shorter steps. KINEFAB_SCENES sets how many are run, KINEFAB_FIRST_SCENE the first seed.
 /// </summary>
 internal sealed class MachineSceneTests
 {

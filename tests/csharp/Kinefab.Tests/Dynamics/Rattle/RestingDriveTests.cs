@@ -1,5 +1,4 @@
 using System;
-using System.IO;
 using System.Linq;
 using Kinefab.Diagnostics;
 using Kinefab.Document;
@@ -84,7 +83,7 @@ internal sealed class RestingDriveTests
     [TestCase("M08", -1)]
     public void DriveAt_ToADeadPoint_StandsThereAtThePriceOfAStep(string fixture, int side)
     {
-        World world = World.Create(ValidScene.Load(Path.Combine(Scenario.Folder, "..", "..", "fixtures", "mechanisms", fixture + ".kinefab")), SolverKind.Exact);
+        World world = UnreachableGoalTests.Fixture(fixture);
         WorldJoint slider = world.Joints.Single(joint => joint.Id == "slider" && joint.FreeCoordinates.Contains(Coordinate.X));
         slider.DriveAt(Coordinate.X, 0.4 * side);
         Run(world, 200);

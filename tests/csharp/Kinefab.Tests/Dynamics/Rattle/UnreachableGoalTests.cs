@@ -76,7 +76,8 @@ internal sealed class UnreachableGoalTests
         Assert.That(world.Findings.Diagnostics.Select(found => found.Code).Distinct(), Is.EqualTo(new[] { DiagnosticCodes.DriveStalled }));
     }
 
-    private static World Fixture(string name) =>
+    /// <summary>A mechanism of the fixtures, in the exact solver.</summary>
+    public static World Fixture(string name) =>
         World.Create(ValidScene.Load(Path.Combine(Scenario.Folder, "..", "..", "fixtures", "mechanisms", name + ".kinefab")), SolverKind.Exact);
 
     private static void Run(World world, int steps)

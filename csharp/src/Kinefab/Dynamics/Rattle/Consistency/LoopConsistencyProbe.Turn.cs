@@ -42,9 +42,7 @@ internal sealed partial class LoopConsistencyProbe
         bool isSlow = true;
         for (int side = -1; side <= 1 && isSlow; side += 2)
         {
-            Restart(mixture);
-            Allowed();
-            Allowed();
+            RestartAllowed(mixture);
             Scale(side);
             isSlow = IsSlowForHalfATurn(held);
             Array.Copy(start, _batch.Bodies, start.Length);
@@ -120,6 +118,12 @@ internal sealed partial class LoopConsistencyProbe
     {
         var all = (double[])_batch.Bodies.Clone();
         TakeToTheLetter(true);
+        TakeFrom(all);
+    }
+
+    // The velocities become what they lack of others.
+    private void TakeFrom(double[] all)
+    {
         for (int body = 0; body < _batch.Shape.MovingBodies; body++)
         {
             int o = LaneBatch<ScalarLane>.Body(body, BodyLanes.V);

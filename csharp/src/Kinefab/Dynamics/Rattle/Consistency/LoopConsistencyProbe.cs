@@ -225,13 +225,18 @@ internal sealed partial class LoopConsistencyProbe
         Start(mixture);
     }
 
-    // Which joints that their softness lets move the rows hold, taken to the letter. In a loop that is only near a singular
-    // pose there is a slow velocity too, far along its way, but its joints move without it.
-    private bool[] Held(int mixture, bool holdsCouplings)
+    private void RestartAllowed(int mixture)
     {
         Restart(mixture);
         Allowed();
         Allowed();
+    }
+
+    // Which joints that their softness lets move the rows hold, taken to the letter. In a loop that is only near a singular
+    // pose there is a slow velocity too, far along its way, but its joints move without it.
+    private bool[] Held(int mixture, bool holdsCouplings)
+    {
+        RestartAllowed(mixture);
         double[] before = Rates();
         TakeToTheLetter(holdsCouplings);
         double[] after = Rates();
@@ -248,15 +253,11 @@ internal sealed partial class LoopConsistencyProbe
     // against these joints'; 0 where there are none. Where nothing is allowed, what is left of it is rounding.
     private bool[] HeldAlone(int mixture, out double speed)
     {
-        Restart(mixture);
-        Allowed();
-        Allowed();
+        RestartAllowed(mixture);
+        var all = (double[])_batch.Bodies.Clone();
         TakeToTheLetter(true);
         double[] after = Rates();
-        Restart(mixture);
-        Allowed();
-        Allowed();
-        TakeWhatIsHeld();
+        TakeFrom(all);
         double[] before = Rates();
         double fastest = Fastest(before), freest = Fastest(after);
         var held = new bool[before.Length];

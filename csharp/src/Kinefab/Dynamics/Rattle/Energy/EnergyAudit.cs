@@ -43,8 +43,8 @@ internal readonly struct EnergyAudit
         _stored = batch.ActiveSet?.StoredEnergy(dt) ?? 0;
         _sprung = batch.ActiveSet?.SpringWork() ?? 0;
         _driven = batch.Work.DrivenWork;
-        Kinetic = NumberOf(LaneEnergy<ScalarLane>.Kinetic(batch), batch);
-        Moving = Math.Max(Kinetic, NumberOf(LaneEnergy<ScalarLane>.FirstWork(batch, dt), batch));
+        Kinetic = KineticOf(batch);
+        Moving = MovingOf(batch, dt);
         double[] a = batch.Bodies;
         for (int body = 0; body < batch.Shape.MovingBodies; body++)
         {
@@ -78,6 +78,15 @@ internal readonly struct EnergyAudit
 
     /// <summary>Energy that came of nothing since, J.</summary>
     public double GainSince(in EnergyAudit since) => Change(since) - (_driven - since._driven);
+
+    /// <summary><see cref="Kinetic"/> without an account of the rest.</summary>
+    public static double KineticOf(LaneBatch<ScalarLane> batch) => NumberOf(LaneEnergy<ScalarLane>.Kinetic(batch), batch);
+
+    /// <summary><see cref="Moving"/> without an account of the rest.</summary>
+    /// <param name="batch">Built at the end pose.</param>
+    /// <param name="dt">Step, s.</param>
+    public static double MovingOf(LaneBatch<ScalarLane> batch, double dt) =>
+        Math.Max(KineticOf(batch), NumberOf(LaneEnergy<ScalarLane>.FirstWork(batch, dt), batch));
 
     // Of L W L without their signs: where a body does not turn about an axis, momentum about it leaves them nothing but rounding.
     private static double TurningTerms(double[] a, int o)

@@ -102,13 +102,13 @@ internal sealed partial class ActiveSet<V>
                 scalar.SlowDown(0);
             }
 
-            scalar.PaceSpeed = scalar.IsActive ? StartSpeed(scalar) : 0;
+            scalar.PaceSpeed = scalar.IsEndlessDrive ? StartSpeed(scalar) : 0;
             if (!scalar.IsEndlessDrive || !scalar.Built.Has(RowFlags.Motion))
             {
                 continue;
             }
 
-            double most = Math.Max(scalar.Built.Has(RowFlags.Angular) ? MostTurn : MostWay * FarthestBody(scalar), ScalarRow.SlowerBy * dt * Math.Abs(StartSpeed(scalar)));
+            double most = Math.Max(scalar.Built.Has(RowFlags.Angular) ? MostTurn : MostWay * FarthestBody(scalar), ScalarRow.SlowerBy * dt * Math.Abs(scalar.PaceSpeed));
             double error = Math.Abs(scalar.Built.GeometricError);
             while (most > 0 && scalar.Slowdowns < MostSlowdowns && error - error / scalar.Growth(dt) > most)
             {
@@ -213,23 +213,11 @@ internal sealed partial class ActiveSet<V>
         return i < _rows.Length ? i : -1;
     }
 
-    /// <summary>What freedom a drive has where it rests; it goes on where it has more than it came to rest with.</summary>
-    /// <param name="index">Its row.</param>
-    /// <param name="freedom">Of its own bodies' response, what the joints and the limits that it pushes against leave.</param>
-    public void Wake(int index, double freedom)
-    {
-        const double more = 4;
-        const double least = 1e-9;
-        ref ScalarRow scalar = ref _rows[index];
-        if (double.IsNaN(scalar.RestingFreedom))
-        {
-            scalar.RestingFreedom = freedom;
-        }
-        else if (freedom > more * scalar.RestingFreedom && freedom > least)
-        {
-            scalar.SlowDown(Awake);
-        }
-    }
+    /// <summary>Notes what freedom a drive came to rest with, see <see cref="HeldDrives.Wake"/>.</summary>
+    public void NoteFreedom(int index, double freedom) => _rows[index].RestingFreedom = freedom;
+
+    /// <summary>A drive that rests goes on.</summary>
+    public void Wake(int index) => _rows[index].SlowDown(Awake);
 
     /// <summary>Holds the hard limits that are reached where the rows were last built, and nothing else.</summary>
     /// <param name="tolerance">Largest C, m or rad.</param>

@@ -15,6 +15,9 @@ internal static class HeldDrives
     // Of a row's own response: so far from its dead point no lever is built.
     private const double LeastFree = 1e-9;
 
+    // Of the freedom that a drive came to rest with, from which on it goes on.
+    private const double MoreFree = 4;
+
     // Of what a held drive's response comes to, the share of another drive from which on that one takes part in holding it.
     private const double LeastPart = 1e-6;
 
@@ -87,7 +90,15 @@ internal static class HeldDrives
     {
         for (int i = scalars.NextResting(0); i >= 0; i = scalars.NextResting(i + 1))
         {
-            scalars.Wake(i, Freedom(batch, scalars, exact, i, tolerance));
+            double freedom = Freedom(batch, scalars, exact, i, tolerance), atFirst = scalars.Row(i).RestingFreedom;
+            if (double.IsNaN(atFirst))
+            {
+                scalars.NoteFreedom(i, freedom);
+            }
+            else if (freedom > MoreFree * atFirst && freedom > LeastFree)
+            {
+                scalars.Wake(i);
+            }
         }
     }
 

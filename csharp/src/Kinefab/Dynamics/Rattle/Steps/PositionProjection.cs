@@ -190,14 +190,7 @@ internal sealed class PositionProjection
 
         LeaveCompliant();
 
-        double most = 0;
-        foreach (double c in _batch.Work.Error)
-        {
-            // Unlike a comparison, this keeps NaN.
-            most = Math.Max(most, Math.Abs(c));
-        }
-
-        return most;
+        return DenseVector.Largest(_batch.Work.Error);
     }
 
     // C of locked turns is the turn from frame 1 to frame 0 along axes of frame 0, or the world's where all are locked; of a

@@ -82,7 +82,7 @@ internal sealed class StiffSpringCorrection
         LaneTransfer<ScalarLane>.EndStep(batch);
         Note(batch, _linear, _angular);
         Array.Copy(batch.Bodies, batch.Work.BodiesBefore, batch.Bodies.Length);
-        double most = MostShown * new EnergyAudit(batch, dt, 0).Moving;
+        double most = MostShown * EnergyAudit.MovingOf(batch, dt);
         bool hasAnswer = TryAnswer(batch, scalars, out bool isFinite);
         while (isFinite && scalars.TakeOutOverloaded(batch.Work.Move))
         {
@@ -90,7 +90,7 @@ internal sealed class StiffSpringCorrection
             hasAnswer = TryAnswer(batch, scalars, out isFinite);
         }
 
-        if (!hasAnswer || !(new EnergyAudit(batch, dt, 0).Kinetic <= most))
+        if (!hasAnswer || !(EnergyAudit.KineticOf(batch) <= most))
         {
             TakeBack(batch);
         }
@@ -128,7 +128,7 @@ internal sealed class StiffSpringCorrection
             Impulses<ScalarLane>.NegativeSpeeds(batch);
             scalars.AddTargets();
             scalars.SubtractCorrections(sum);
-            double left = Largest(solution);
+            double left = DenseVector.Largest(solution);
             if (left > first || pass == Passes)
             {
                 return !(left > first);
@@ -136,7 +136,7 @@ internal sealed class StiffSpringCorrection
 
             first = pass == 0 ? left : first;
             DelassusMatrix<ScalarLane>.Solve(batch, solution);
-            isFinite = Finite.Is(Largest(solution));
+            isFinite = Finite.Is(DenseVector.Largest(solution));
             if (!isFinite)
             {
                 return false;
@@ -148,17 +148,5 @@ internal sealed class StiffSpringCorrection
                 sum[i] += solution[i];
             }
         }
-    }
-
-    // Unlike a comparison, this keeps NaN.
-    private static double Largest(double[] vector)
-    {
-        double most = 0;
-        foreach (double number in vector)
-        {
-            most = Math.Max(most, Math.Abs(number));
-        }
-
-        return most;
     }
 }

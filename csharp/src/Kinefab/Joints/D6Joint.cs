@@ -253,19 +253,23 @@ internal sealed class D6Joint : JointModel
         }
     }
 
-    // C = the angle about an axis that is left to the goal, by the shorter way, J its gradient: what is prescribed is met at whatever swing.
+    // C = c times the angle about an axis that is left to the goal, by the shorter way, J its gradient, c as of a limit: what is prescribed is met at whatever
+    // swing. The torque, of J times it, keeps its limit.
     private void AngularMotion(ref RowWriter writer, in JointFrames f, int axis, Vector3d axis1, in DriveModel drive)
     {
         Quaterniond at = f.Relative.Rotation;
         Quaterniond to = DrivePose.Rotation;
         double goal = axis == 0 && !double.IsNaN(DriveTwistAngle) ? DriveTwistAngle : 2 * Trigonometry.Atan2(to.Vector[axis], to.W);
         double angle = SwingTwist.Nearest(2 * Trigonometry.Atan2(at.Vector[axis], at.W), axis == 0 && !double.IsNaN(DriveTwistAngle) ? LastTwist : goal);
-        writer.AngularDrive(SwingTwist.TwistGradient(f.Axis0(axis), axis1), 0, goal - angle, drive);
+        Vector3d gradient = SwingTwist.WeighedGradient(f.Axis0(axis), axis1, goal - angle, out double weight);
+        DriveModel weighed = drive;
+        weighed.ForceLimit /= Math.Max(SwingTwist.LeastWeight, weight);
+        writer.AngularDrive(gradient, 0, weight * (goal - angle), weighed);
     }
 
     // Both swings limited: one row on the elliptic cone, error the sine of the distance. One limited, the other locked:
     // C = the swing angle against +-limit about frame 0's axis. One limited, the other free: C = the elevation of X1
-    // against +-limit. Twist: C = the twist angle against its limits about X1.
+    // against +-limit. Twist: C = the twist angle against its limits about X1, in the exact solver weighed.
     // Source: ExtD6Joint.cpp, D6JointSolverPrep and setup*SwingLimit(s).
     private void AngularLimits(ref RowWriter writer, in JointFrames f, Vector3d x1)
     {
@@ -316,10 +320,27 @@ internal sealed class D6Joint : JointModel
 
         if (twist)
         {
+            double angle = Followed(Twisted(f));
+            if (LimitsFromAfar && !HasCardanTwist && !TwistLimit.Response.IsSoft)
+            {
+                WeighedTwistLimits(ref writer, f, x1, angle);
+                return;
+            }
+
             // PhysX's row is not the gradient of its angle while the joint swings: what holds by it gives energy and drifts.
             Vector3d gradient = !LimitsFromAfar ? x1 : HasCardanTwist ? CardanGradient(f) : SwingTwist.TwistGradient(f.Axis0(0), x1);
-            writer.AngleLimits(gradient, Followed(Twisted(f)), TwistLimit.Lower, TwistLimit.Upper, TwistLimit.Response);
+            writer.AngleLimits(gradient, angle, TwistLimit.Lower, TwistLimit.Upper, TwistLimit.Response);
         }
+    }
+
+    // C = c times the twist that is left to a limit, c = cos(swing / 2): the same limit by a J that is a unit vector at any swing. A soft limit has its
+    // torque by the angle itself.
+    private void WeighedTwistLimits(ref RowWriter writer, in JointFrames f, Vector3d x1, double angle)
+    {
+        Vector3d lower = SwingTwist.WeighedGradient(f.Axis0(0), x1, TwistLimit.Lower - angle, out double weight);
+        Vector3d upper = SwingTwist.WeighedGradient(f.Axis0(0), x1, TwistLimit.Upper - angle, out _);
+        writer.AngleLimit(-lower, weight * (angle - TwistLimit.Lower), TwistLimit.Response);
+        writer.AngleLimit(upper, weight * (TwistLimit.Upper - angle), TwistLimit.Response);
     }
 
     // Where one swing is locked and the other is not, frame 1 has turned about its X from the axis that stays square to that X: the same angle as the

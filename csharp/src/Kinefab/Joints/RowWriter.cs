@@ -117,6 +117,9 @@ internal ref struct RowWriter
         }
     }
 
+    /// <summary>One limit of an angle whose J is known, however far it is: J = (0, axis; 0, axis), impulse >= 0.</summary>
+    public void AngleLimit(Vector3d axis, double error, in LimitResponse response) => Limit(ref AngularRow(axis, error), response);
+
     /// <summary>A cone's limit, whose error is known, positive inside: J = (0, axis; 0, axis), impulse >= 0.</summary>
     public void ConeLimit(Vector3d axis, double error, in LimitResponse response)
     {

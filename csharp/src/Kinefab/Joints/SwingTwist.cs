@@ -8,6 +8,9 @@ internal readonly struct SwingTwist
 {
     private const double LeastCosine = 1e-6;
 
+    /// <summary>Keeps forces that a weight divides finite, and 0 / 0 out where there is no twist.</summary>
+    public const double LeastWeight = 1e-9;
+
     public readonly Quaterniond Swing;
     public readonly Quaterniond Twist;
 
@@ -31,6 +34,23 @@ internal readonly struct SwingTwist
     /// <param name="axis0">The twist's axis in frame 0.</param>
     /// <param name="axis1">The same in frame 1.</param>
     public static Vector3d TwistGradient(Vector3d axis0, Vector3d axis1) => (axis0 + axis1) * (1 / Math.Max(LeastCosine, 1 + Vector3d.Dot(axis0, axis1)));
+
+    /// <summary>
+    /// g of what is left of a twist to a goal, weighed by c = cos(swing / 2): c (goal - twist) falls at the rate g.w, w the angular velocity of frame 1
+    /// against frame 0. c is the length of (q_x, q_w), about whose origin the twist turns: the rate of a twist grows without end towards a swing of half
+    /// a turn, where there is no twist; c times it does not.
+    /// </summary>
+    /// <param name="axis0">The twist's axis in frame 0.</param>
+    /// <param name="axis1">The same in frame 1.</param>
+    /// <param name="left">Goal - twist, radians.</param>
+    /// <param name="weight">c.</param>
+    public static Vector3d WeighedGradient(Vector3d axis0, Vector3d axis1, double left, out double weight)
+    {
+        Vector3d sum = axis0 + axis1;
+        weight = sum.Length / 2;
+        double inverse = 1 / Math.Max(LeastWeight, weight);
+        return sum * (inverse / 2) - Vector3d.Cross(axis1, axis0) * (left * inverse / 4);
+    }
 
     /// <summary>Of the angles that differ from one by whole turns the one nearest to a reference, radians.</summary>
     public static double Nearest(double angle, double reference) => angle + 2 * Math.PI * Math.Round((reference - angle) / (2 * Math.PI));

@@ -183,7 +183,7 @@ internal struct HeldLimit
 
     public JointModel Joint;
 
-    /// <summary>By how much, m or rad.</summary>
+    /// <summary>By how much, m or rad; of a twist times the cosine of half the swing.</summary>
     public double Error;
     public bool IsAngular;
 }

@@ -24,8 +24,8 @@ internal sealed partial class StepController
     // Failures in a step after which parts that fail are left to implicit Euler.
     private const int MaxFailures = 48;
 
-    // And after which a step that failed about an event is cut into even parts all the same.
-    private const int MaxEventFailures = 12;
+    // And after which a step that was halved where it failed is cut into even parts all the same.
+    private const int MaxTrialFailures = 24;
 
     // Stops in a step after which the rest of it is not tried: the scene cannot be followed, and says so.
     private const int MaxDampedSteps = 8;
@@ -181,7 +181,7 @@ internal sealed partial class StepController
                 Audit(dt);
             }
 
-            if (wasEager && !hasHalvedThere && _part.HasFailedAtEvent)
+            if (wasEager && !hasHalvedThere && IsInOnePlace())
             {
                 hasHalvedThere = true;
                 if (TryHalving(dt, halvings, tolerance))
@@ -346,7 +346,10 @@ internal sealed partial class StepController
         return true;
     }
 
-    // Where an event alone is in the way, the step is halved there and nowhere else; false where that takes more than a few parts.
+    // Where limits and drives act, what is in the way is mostly in one place; a drive without limit of force that does not get on is in the way all along.
+    private bool IsInOnePlace() => _part.HasFailedAtEvent || (_batch.ActiveSet != null && !_batch.ActiveSet.HasSlowedDown());
+
+    // The step is halved where it fails and nowhere else; false where that takes more than a few parts.
     private bool TryHalving(double dt, int halvings, double tolerance)
     {
         _isTrial = true;
@@ -374,7 +377,7 @@ internal sealed partial class StepController
 
     private void Halve(double h, int depth, double tolerance)
     {
-        _hasGivenUp = _isTrial && (_hasGivenUp || _failures > MaxEventFailures);
+        _hasGivenUp = _isTrial && (_hasGivenUp || _failures > MaxTrialFailures);
         if (_hasGivenUp)
         {
             return;

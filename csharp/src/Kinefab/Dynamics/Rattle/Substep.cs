@@ -246,7 +246,7 @@ internal sealed class Substep
             return true;
         }
 
-        if (first >= 0 && scalars.HoldBack(first, tolerance))
+        if (first >= 0 && scalars.HoldBack(first, left, tolerance))
         {
             ReturnToPieceStart(left);
             return TryPiece(left, tolerance, out piece);

@@ -27,7 +27,9 @@ internal sealed class UnreachableGoalTests
     [TestCase(66.19, Farthest)]
     [TestCase(-1, Nearest)]
     [TestCase(-3, Nearest)]
+    [TestCase(-36, Nearest)]
     [TestCase(-40, Nearest)]
+    [TestCase(-43, Nearest)]
     public void DriveTo_BeyondADeadPoint_StaysAtItAndIsNamed(double goal, double expected)
     {
         World world = Fixture("M08");

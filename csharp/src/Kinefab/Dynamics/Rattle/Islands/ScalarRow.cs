@@ -128,11 +128,20 @@ internal struct ScalarRow
     /// <summary>How often the speed of a drive without limit of force was halved, as the mechanism did not follow it.</summary>
     public int Slowdowns;
 
+    /// <summary>How often, when the mechanism last followed it.</summary>
+    public int FollowedSlowdowns;
+
     /// <summary>Which way it was asked to go then: the sign of its speed.</summary>
     public int SlowdownSide;
 
+    /// <summary>What the mechanism is to a drive without limit of force at the end of a step, kg or kg m^2; 0: it is not known.</summary>
+    public double Inertia;
+
     /// <summary>Speed of the row where the step began, before which its pace was set.</summary>
     public double PaceSpeed;
+
+    /// <summary>Whether a drive rested at the end of the last step.</summary>
+    public bool HasRested;
 
     /// <summary>What freedom a drive that rests had when it came to rest, see <see cref="HeldDrives.Wake"/>; NaN: it is not measured yet.</summary>
     public double RestingFreedom;

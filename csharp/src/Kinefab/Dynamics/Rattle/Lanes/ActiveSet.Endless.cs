@@ -20,6 +20,7 @@ internal sealed partial class ActiveSet<V>
     // back from there; where HeldDrives sees it free, at once.
     private const int Resting = 60;
     private const int Awake = 4;
+    private const int Return = 4;
 
     // Of the speed that it was asked for at first, one that gains more in a step still comes, and one that has less stands, if it also turns by less in a
     // step, rad, or moves by less of what the mechanism reaches.
@@ -29,6 +30,10 @@ internal sealed partial class ActiveSet<V>
     // In a step a drive to a goal begins with no more than this turn, rad, or this share of what the mechanism reaches.
     private const double MostTurn = 0.5;
     private const double MostWay = 0.1;
+
+    // Growth of the inertia in a step from which on it comes to a dead point: it grows no faster, or it slows down.
+    private const double Heavier = 1.2;
+    private const double MostHeavier = 1.5;
 
     // Of the speed that it was asked for, less is a drive that the mechanism does not follow.
     private const double LeastFollowed = 0.5;
@@ -48,25 +53,41 @@ internal sealed partial class ActiveSet<V>
         const double mostAcceleration = 1e3;
         bool isAngular = drive.Built.Has(RowFlags.Angular);
         double speed = Math.Abs(drive.AskedSpeed(h));
-        double levers = _batch.Shape.HasLoops ? MostByLevers : 1;
+        double inertia = MostInertia(drive, out double reach), load = 0;
         Vector3d anchor = Anchor(drive);
-        double reach = 0, mass = 0, moments = 0, load = 0;
         for (int body = 0; body < _batch.Shape.MovingBodies; body++)
         {
             int o = LaneRecords<V>.Body(body, 0);
             double own = Inverse(_batch.Bodies[o + BodyLanes.InverseMass]);
-            double arm = Length(o + BodyLanes.EndX, anchor);
-            double weight = isAngular ? own * arm : own;
-            reach = Math.Max(reach, arm);
-            mass += own;
-            moments += own * arm * arm + Inverse(_batch.Bodies[o + BodyLanes.LeastInverseInertia]);
+            double weight = isAngular ? own * Length(o + BodyLanes.EndX, anchor) : own;
             load += weight * Length(o + BodyLanes.Acceleration) + (isAngular ? Length(o + BodyLanes.Torque) : 0);
         }
 
-        double inertia = isAngular ? moments : levers > 1 && reach > 0 ? mass + levers * moments / (reach * reach) : mass;
         double start = Math.Max(0, Margin * inertia * (speed + Math.Abs(drive.StartSpeed)) - Math.Abs(_batch.Work.TotalImpulses[drive.Index]));
-        double force = Margin * (load + levers * Opposed(drive, h, speed, reach)) + inertia * mostAcceleration * Math.Sqrt(drive.Pace);
+        double force = Margin * (load + Levers * Opposed(drive, h, speed, reach)) + inertia * mostAcceleration * Math.Sqrt(drive.Pace);
         return ByGears(reach) * (start + force * h);
+    }
+
+    private double Levers => _batch.Shape.HasLoops ? MostByLevers : 1;
+
+    // The most that a mechanism away from its dead points is to a drive that moves it, kg or kg m^2, but for gears: all bodies as one. reach: how far the
+    // farthest is from the drive's joint, m.
+    private double MostInertia(in ScalarRow drive, out double reach)
+    {
+        Vector3d anchor = Anchor(drive);
+        double mass = 0, moments = 0;
+        reach = 0;
+        for (int body = 0; body < _batch.Shape.MovingBodies; body++)
+        {
+            int o = LaneRecords<V>.Body(body, 0);
+            double own = Inverse(_batch.Bodies[o + BodyLanes.InverseMass]), arm = Length(o + BodyLanes.EndX, anchor);
+            reach = Math.Max(reach, arm);
+            mass += own;
+            moments += own * arm * arm + Inverse(_batch.Bodies[o + BodyLanes.LeastInverseInertia]);
+        }
+
+        double levers = Levers;
+        return drive.Built.Has(RowFlags.Angular) ? moments : levers > 1 && reach > 0 ? mass + levers * moments / (reach * reach) : mass;
     }
 
     // How far from a drive's joint the farthest body is, m.
@@ -143,14 +164,19 @@ internal sealed partial class ActiveSet<V>
             bool isFollowed = !scalar.IsStalled && speed >= LeastFollowed * asked - tolerance;
             double little = LeastMoved * asked / scalar.Pace;
             bool comes = speed > Math.Max(0, scalar.PaceSpeed * scalar.SlowdownSide) + little;
+            double growth = GrowthAtADeadPoint(ref scalar);
             bool stands = scalar.IsStalled && Math.Abs(speed) <= little
                 && Math.Abs(speed) * dt <= LeastWay * (scalar.Built.Has(RowFlags.Angular) ? 1 : FarthestBody(scalar));
             int before = scalar.Slowdowns;
-            bool rests = before > MostSlowdowns;
-            scalar.SlowDown(isFollowed ? Math.Max(0, before - 1)
+            bool rests = Rests(scalar);
+            scalar.FollowedSlowdowns = isFollowed && !rests ? before : scalar.FollowedSlowdowns;
+            scalar.SlowDown(isFollowed && growth > MostHeavier ? Math.Min(MostSlowdowns, before + 1)
+                : isFollowed ? Math.Max(0, before - (growth > Heavier ? 0 : 1))
                 : stands || rests ? Resting
                 : comes ? before
                 : Math.Min(MostSlowdowns, before + Slowdown));
+            scalar.IsStalled |= isFollowed && growth > MostHeavier;
+            scalar.HasRested = Rests(scalar);
             isAny |= scalar.Slowdowns > 0;
             scalar.RestingFreedom = rests ? scalar.RestingFreedom : double.NaN;
             comesToRest |= before < scalar.Slowdowns && scalar.Slowdowns == Resting;
@@ -162,6 +188,24 @@ internal sealed partial class ActiveSet<V>
         }
 
         return isAny;
+    }
+
+    // By how much what the mechanism is to a drive that moves it grew in the step, where that is more than it comes to away from dead points: the pivot of
+    // the drive's row, 1 / (J M^-1 J^T) once all other rows that act have answered. At a dead point it is infinite. 1 elsewhere.
+    private double GrowthAtADeadPoint(ref ScalarRow drive)
+    {
+        double before = drive.Inertia;
+        drive.Inertia = 0;
+        if (drive.State == RowState.Free && drive.ProjectedAs == ProjectedAs.Rigid && _scalars.IsFactored)
+        {
+            double[] unit = _batch.Work.Solution;
+            Array.Clear(unit, 0, unit.Length);
+            unit[drive.Index] = 1;
+            DelassusMatrix<V>.Solve(_batch, unit);
+            drive.Inertia = unit[drive.Index];
+        }
+
+        return before > 0 && drive.Inertia > ByGears(0) * MostInertia(drive, out _) ? drive.Inertia / before : 1;
     }
 
     // A drive that gave all it has and what stopped it hold each other by far more than they have to. As a guess that would stay, since rows that agree ask
@@ -201,11 +245,14 @@ internal sealed partial class ActiveSet<V>
         return isAny;
     }
 
+    // One that comes back from a rest rests until it was followed a little.
+    private static bool Rests(in ScalarRow drive) => drive.Slowdowns > MostSlowdowns - (drive.HasRested ? Return : 0);
+
     /// <summary>The next row, from one on, of a drive that rests; -1: there is none.</summary>
     public int NextResting(int from)
     {
         int i = from;
-        while (i < _rows.Length && !(_rows[i].Slowdowns > MostSlowdowns && _rows[i].IsEndlessDrive))
+        while (i < _rows.Length && !(Rests(_rows[i]) && _rows[i].IsEndlessDrive))
         {
             i++;
         }
@@ -217,7 +264,7 @@ internal sealed partial class ActiveSet<V>
     public void NoteFreedom(int index, double freedom) => _rows[index].RestingFreedom = freedom;
 
     /// <summary>A drive that rests goes on.</summary>
-    public void Wake(int index) => _rows[index].SlowDown(Awake);
+    public void Wake(int index) => _rows[index].SlowDown(Math.Max(Awake, _rows[index].FollowedSlowdowns));
 
     /// <summary>Holds the hard limits that are reached where the rows were last built, and nothing else.</summary>
     /// <param name="tolerance">Largest C, m or rad.</param>
@@ -252,6 +299,9 @@ internal sealed partial class ActiveSet<V>
 
     /// <summary>Whether a drive has no limit of force.</summary>
     public bool HasEndless() => Array.Exists(_rows, row => row.IsEndlessDrive);
+
+    /// <summary>Whether a drive without limit of force is slowed down.</summary>
+    public bool HasSlowedDown() => Array.Exists(_rows, row => row.IsEndlessDrive && row.Slowdowns > 0);
 
     /// <summary>Whether a drive is held, see <see cref="HeldDrives"/>.</summary>
     public bool HasHeld()

@@ -16,7 +16,7 @@ internal static class FreeMotion<V>
     where V : struct, ILane<V>
 {
     // Largest error of a quaternion's square.
-    private const double MostStretch = 1e-3;
+    private const double MostStretch = 1e-10;
 
     // Bodies of one island that turn side by side, and fewer of them for which it pays.
     private const int Together = 4;

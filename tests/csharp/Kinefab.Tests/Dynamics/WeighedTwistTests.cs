@@ -1,0 +1,91 @@
+using System;
+using System.Collections.Generic;
+using Kinefab.Dynamics;
+using Kinefab.Dynamics.Rattle;
+using Kinefab.Joints;
+using Kinefab.Numerics;
+using Kinefab.Tests.Dynamics.Rattle;
+using NUnit.Framework;
+
+namespace Kinefab.Tests.Dynamics;
+
+/// <summary>Limits of a twist in the exact solver hold at any swing, by a row that is a gradient and grows nowhere.</summary>
+internal sealed class WeighedTwistTests
+{
+    /// <summary>Swings up to a ten-thousandth of a radian beside half a turn, where the twist itself turns ten thousand times as fast as its joint.</summary>
+    [TestCase(0.7)]
+    [TestCase(Math.PI - 0.02)]
+    [TestCase(Math.PI - 1e-4)]
+    public void WeighedGradient_OfWhatIsLeft_IsItsRate(double swing)
+    {
+        var random = new Random(5);
+        double h = 1e-5 * Math.Cos(swing / 2);
+        for (int trial = 0; trial < 100; trial++)
+        {
+            double toward = 2 * Math.PI * random.NextDouble(), twist = 3 * random.NextDouble() - 1, goal = 2 * random.NextDouble() - 0.5;
+            Quaterniond at = Quaterniond.AxisAngle(new Vector3d(0, Math.Cos(toward), Math.Sin(toward)), swing) * Quaterniond.AxisAngle(Vector3d.UnitX, twist);
+
+            Vector3d gradient = SwingTwist.WeighedGradient(Vector3d.UnitX, at * Vector3d.UnitX, goal - twist, out double weight);
+
+            Assert.That(weight, Is.EqualTo(Math.Cos(swing / 2)).Within(1e-12));
+            for (int axis = 0; axis < 3; axis++)
+            {
+                Vector3d turn = axis == 0 ? Vector3d.UnitX : axis == 1 ? Vector3d.UnitY : Vector3d.UnitZ;
+                double rate = (Weighed(turn, h) - Weighed(turn, -h)) / (2 * h);
+                Assert.That(-gradient[axis], Is.EqualTo(rate).Within(1e-4), $"trial {trial}, axis {axis}");
+            }
+
+            double Weighed(Vector3d turn, double angle)
+            {
+                Quaterniond q = Quaterniond.AxisAngle(turn, angle) * at;
+                double c = Math.Sqrt(q.X * q.X + q.W * q.W);
+                return c * (goal - SwingTwist.Nearest(SwingTwist.TwistAngle(q), twist));
+            }
+        }
+    }
+
+    [Test]
+    public void WeighedGradient_AtTheGoal_IsAUnitVector([Values(0, 2.0, Math.PI - 1e-6)] double swing)
+    {
+        Vector3d axis = Quaterniond.AxisAngle(new Vector3d(0, 0.6, 0.8), swing) * Vector3d.UnitX;
+        Assert.That(SwingTwist.WeighedGradient(Vector3d.UnitX, axis, 0, out _).Length, Is.EqualTo(1).Within(1e-9));
+    }
+
+    /// <summary>
+    /// A rod on a ball whose twist has limits is swung over its top, beside it by less and less, where its twist goes round faster than anything moves.
+    /// </summary>
+    [TestCase(0)]
+    [TestCase(1e-6)]
+    [TestCase(1e-3)]
+    [TestCase(0.05)]
+    public void Step_BallSwungOverItsTop_TakesFewParts(double aside)
+    {
+        const double dt = 1.0 / 60, mostParts = 25;
+        var b = new MechanismBuilder();
+        int rod = b.Body(new Vector3d(0.5, 0, 0), Quaterniond.Identity, 1.3, new Vector3d(0.01, 0.11, 0.12));
+        var ball = new D6Joint
+        {
+            Twist = AxisMotion.Limited, Swing1 = AxisMotion.Free, Swing2 = AxisMotion.Free,
+            TwistLimit = new AngularLimit { Lower = -10 * Math.PI / 180, Upper = 80 * Math.PI / 180 },
+        };
+        b.Add(ball, JointModel.World, rod, Pose.Identity);
+        MultibodySystem m = b.Build();
+        var spin = new Vector3d(0, aside, 7);
+        m.Bodies.AngularVelocities[rod] = spin;
+        m.Bodies.LinearVelocities[rod] = Vector3d.Cross(spin, new Vector3d(0.5, 0, 0));
+        var solver = new RattleSolver(m, new List<InconsistentLoop>());
+        double start = MechanismMeasures.Energy(m), work = 0, most = 0;
+        for (int i = 1; i <= 300; i++)
+        {
+            solver.Step(dt);
+            most = Math.Max(most, 1 + m.SubstepWork - work);
+            work = m.SubstepWork;
+            double twist = SwingTwist.TwistAngle(m.Bodies.Poses[rod].Rotation) * 180 / Math.PI, turned = 360 * Math.Round((twist - 35) / 360);
+            Assert.That(MechanismMeasures.Energy(m), Is.LessThanOrEqualTo(start + 0.05), $"step {i}");
+            Assert.That(twist - turned, Is.InRange(-10.01, 80.01), $"step {i}");
+        }
+
+        Assert.That(most, Is.LessThanOrEqualTo(mostParts));
+        Assert.That(m.Stops, Is.Zero);
+    }
+}

@@ -321,20 +321,19 @@ internal sealed class D6Joint : JointModel
         if (twist)
         {
             double angle = Followed(Twisted(f));
-            if (LimitsFromAfar && !HasCardanTwist && !TwistLimit.Response.IsSoft)
+            if (LimitsFromAfar && !HasCardanTwist)
             {
                 WeighedTwistLimits(ref writer, f, x1, angle);
                 return;
             }
 
             // PhysX's row is not the gradient of its angle while the joint swings: what holds by it gives energy and drifts.
-            Vector3d gradient = !LimitsFromAfar ? x1 : HasCardanTwist ? CardanGradient(f) : SwingTwist.TwistGradient(f.Axis0(0), x1);
-            writer.AngleLimits(gradient, angle, TwistLimit.Lower, TwistLimit.Upper, TwistLimit.Response);
+            writer.AngleLimits(HasCardanTwist ? CardanGradient(f) : x1, angle, TwistLimit.Lower, TwistLimit.Upper, TwistLimit.Response);
         }
     }
 
-    // C = c times the twist that is left to a limit, c = cos(swing / 2): the same limit by a J that is a unit vector at any swing. A soft limit has its
-    // torque by the angle itself.
+    // C = c times the twist that is left to a limit, c = cos(swing / 2): the same limit by a J that is a unit vector at any swing. PhysX's soft limit has
+    // the torque k C / c along X1, which has no potential; the gradient of the angle itself would be k C / c^2.
     private void WeighedTwistLimits(ref RowWriter writer, in JointFrames f, Vector3d x1, double angle)
     {
         Vector3d lower = SwingTwist.WeighedGradient(f.Axis0(0), x1, TwistLimit.Lower - angle, out double weight);

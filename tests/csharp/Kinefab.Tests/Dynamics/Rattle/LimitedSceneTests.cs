@@ -140,6 +140,7 @@ internal sealed class LimitedSceneTests
     /// Parts of a step that no method took were not halved further once others had failed before: 1 to 3,677 stops, and none in steps 64 times
     /// shorter. What a failed attempt left of a cone's row, no numbers, came into the momenta by a factor of 0 (1305). A drift that leaps over a limit
     /// from one length to the next was no piece (119), and locked angles of a loop stood open by 2e-5 rad for a shorter part to close (41022).
+    /// A twist beyond its soft limit turned without end near a swing of half a turn (7001560).
     /// </summary>
     [TestCase(119)]
     [TestCase(237)]
@@ -149,6 +150,7 @@ internal sealed class LimitedSceneTests
     [TestCase(995)]
     [TestCase(1305)]
     [TestCase(41022)]
+    [TestCase(7001560)]
     public void Step_WhereShorterStepsGoOn_DoesNotStop(int seed)
     {
         var scene = new LimitedScene(seed);

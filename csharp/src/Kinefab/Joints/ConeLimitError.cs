@@ -77,8 +77,37 @@ internal static class ConeLimitError
             along = first;
         }
 
+        if (limit.Response.IsSoft && twistAxis.X < 0)
+        {
+            FindFromAfar(limit, twistAxis, out line, out along);
+        }
+
         axis = along * (1 / along.Length);
         return Trigonometry.Atan2(Vector3d.Dot(Vector3d.Cross(line, axis), twistAxis), Vector3d.Dot(line, twistAxis));
+    }
+
+    // At a swing of more than a right angle the search may have ended at any line that stands square: the nearest of some all round, and from there by
+    // halves.
+    private static void FindFromAfar(in ConeLimit limit, Vector3d direction, out Vector3d line, out Vector3d along)
+    {
+        const int all = 32, halvings = 50;
+        const double apart = 2 * Math.PI / all;
+        double best = 0, most = double.NegativeInfinity;
+        for (int i = 0; i < all; i++)
+        {
+            Along(limit, i * apart, direction, out line, out _);
+            double near = Vector3d.Dot(line, direction);
+            (best, most) = near > most ? (i * apart, near) : (best, most);
+        }
+
+        double low = best - apart, high = best + apart;
+        for (int i = 0; i < halvings; i++)
+        {
+            double middle = (low + high) / 2;
+            (low, high) = Along(limit, middle, direction, out _, out _) > 0 ? (middle, high) : (low, middle);
+        }
+
+        Along(limit, (low + high) / 2, direction, out line, out along);
     }
 
     // At the ellipse's point of a parameter: the cone's line, how it moves along it, outwards to the left, and how fast that leads towards a direction.

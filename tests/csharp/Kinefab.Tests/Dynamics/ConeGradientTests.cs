@@ -33,17 +33,21 @@ internal sealed class ConeGradientTests
         }
     }
 
-    /// <summary>As far as a right angle beyond a soft cone its error is the angle to its nearest line, here of as many as are looked through.</summary>
+    /// <summary>
+    /// As far as half a turn beyond a soft cone its error is the angle to its nearest line, here of as many as are looked through. About half a turn the
+    /// line that is nearest among the swing angles may be the farther side's: the angle jumped by a radian there.
+    /// </summary>
     [Test]
-    public void Find_FarBeyondASoftCone_IsTheAngleToTheNearestLine()
+    public void Find_FarBeyondASoftCone_IsTheAngleToTheNearestLine([Values(1.8, Math.PI)] double widest)
     {
         const int lines = 4000;
         var random = new Random(3);
         for (int trial = 0; trial < 300; trial++)
         {
-            var limit = new ConeLimit { Y = Math.Pow(10, -2 * random.NextDouble()), Z = Math.Pow(10, -2 * random.NextDouble()), Response = new LimitResponse { Stiffness = 1 } };
+            double size = widest > 2 ? 2.5 : 1;
+            var limit = new ConeLimit { Y = size * Math.Pow(10, -2 * random.NextDouble()), Z = size * Math.Pow(10, -2 * random.NextDouble()), Response = new LimitResponse { Stiffness = 1 } };
             double toward = 2 * Math.PI * random.NextDouble();
-            Quaterniond swing = Quaterniond.AxisAngle(new Vector3d(0, Math.Cos(toward), Math.Sin(toward)), 1 + 0.8 * random.NextDouble());
+            Quaterniond swing = Quaterniond.AxisAngle(new Vector3d(0, Math.Cos(toward), Math.Sin(toward)), widest - 0.8 * random.NextDouble());
             if (!ConeLimitError.Find(limit, 0, swing, true, out _, out double error))
             {
                 continue;

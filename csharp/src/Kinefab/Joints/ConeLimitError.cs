@@ -54,13 +54,30 @@ internal static class ConeLimitError
     // holds by it gives energy. The search begins at the point that is nearest among the swing angles.
     private static double ExactError(in ConeLimit limit, double py, double pz, Vector3d twistAxis, out Vector3d axis)
     {
+        Vector3d line, along;
+        if (limit.Response.IsSoft && twistAxis.X < 0)
+        {
+            FindAllRound(limit, twistAxis, out line, out along);
+        }
+        else
+        {
+            FindNear(limit, py, pz, twistAxis, out line, out along);
+        }
+
+        axis = along * (1 / along.Length);
+        return Trigonometry.Atan2(Vector3d.Dot(Vector3d.Cross(line, axis), twistAxis), Vector3d.Dot(line, twistAxis));
+    }
+
+    // Of a hard cone the line at the ellipse's point, which on the cone is the nearest.
+    private static void FindNear(in ConeLimit limit, double py, double pz, Vector3d twistAxis, out Vector3d line, out Vector3d along)
+    {
         const int most = 20;
         const double enough = 1e-14;
         const double widest = 0.3;
         double at = Trigonometry.Atan2(pz / limit.Z, py / limit.Y);
         double before = at - 1e-3 * Math.Min(limit.Y, limit.Z) / Math.Max(limit.Y, limit.Z);
         double last = limit.Response.IsSoft ? Along(limit, before, twistAxis, out _, out _) : 0;
-        double slope = Along(limit, at, twistAxis, out Vector3d line, out Vector3d along);
+        double slope = Along(limit, at, twistAxis, out line, out along);
         Vector3d firstLine = line;
         Vector3d first = along;
         for (int i = 0; i < most && limit.Response.IsSoft && Math.Abs(slope) > enough * along.Length && slope != last; i++)
@@ -76,19 +93,10 @@ internal static class ConeLimitError
             line = firstLine;
             along = first;
         }
-
-        if (limit.Response.IsSoft && twistAxis.X < 0)
-        {
-            FindFromAfar(limit, twistAxis, out line, out along);
-        }
-
-        axis = along * (1 / along.Length);
-        return Trigonometry.Atan2(Vector3d.Dot(Vector3d.Cross(line, axis), twistAxis), Vector3d.Dot(line, twistAxis));
     }
 
-    // At a swing of more than a right angle the search may have ended at any line that stands square: the nearest of some all round, and from there by
-    // halves.
-    private static void FindFromAfar(in ConeLimit limit, Vector3d direction, out Vector3d line, out Vector3d along)
+    // At a swing of more than a right angle that search may end at any line that stands square: the nearest of some all round, and from there by halves.
+    private static void FindAllRound(in ConeLimit limit, Vector3d direction, out Vector3d line, out Vector3d along)
     {
         const int all = 32, halvings = 50;
         const double apart = 2 * Math.PI / all;

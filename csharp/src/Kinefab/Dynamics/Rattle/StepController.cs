@@ -56,6 +56,7 @@ internal sealed partial class StepController
     private int _dampedInStep;
     private bool _isTrial;
     private bool _hasGivenUp;
+    private bool _hasArrived;
     private bool _hasMoved;
     private int _worst;
     private double _worstError;
@@ -297,7 +298,8 @@ internal sealed partial class StepController
 
     private bool TryEvenParts(double dt, int halvings, double tolerance)
     {
-        if (!TrySubsteps(dt, halvings, tolerance))
+        _hasArrived = TrySubsteps(dt, halvings, tolerance);
+        if (!_hasArrived)
         {
             return false;
         }
@@ -346,8 +348,9 @@ internal sealed partial class StepController
         return true;
     }
 
-    // Where limits and drives act, what is in the way is mostly in one place; a drive without limit of force that does not get on is in the way all along.
-    private bool IsInOnePlace() => _part.HasFailedAtEvent || (_batch.ActiveSet != null && !_batch.ActiveSet.HasSlowedDown());
+    // Where limits and drives act, what does not arrive is mostly in one place. Energy is a matter of the whole step's length, and a drive without limit of
+    // force that does not get on is in the way all along.
+    private bool IsInOnePlace() => _part.HasFailedAtEvent || (!_hasArrived && _batch.ActiveSet != null && !_batch.ActiveSet.HasSlowedDown());
 
     // The step is halved where it fails and nowhere else; false where that takes more than a few parts.
     private bool TryHalving(double dt, int halvings, double tolerance)

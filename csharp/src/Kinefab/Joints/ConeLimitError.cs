@@ -34,14 +34,14 @@ internal static class ConeLimitError
             return false;
         }
 
-        NearestOnEllipse(y, z, limit.Y, limit.Z, isExact ? Exact : Coarse, out double py, out double pz);
         Vector3d twistAxis = swing * Vector3d.UnitX;
         if (isExact)
         {
-            error = ExactError(limit, py, pz, twistAxis, out axis);
+            error = ExactError(limit, y, z, twistAxis, out axis);
             return true;
         }
 
+        NearestOnEllipse(y, z, limit.Y, limit.Z, Coarse, out double py, out double pz);
         var radius = new Vector3d(0, Trigonometry.Tan(py / 4), Trigonometry.Tan(pz / 4));
         Vector3d line = Line(radius, new Vector3d(0, py / (limit.Y * limit.Y), pz / (limit.Z * limit.Z)), out Vector3d normal);
         axis = Vector3d.Cross(line, normal) * (1 / normal.Length);
@@ -51,8 +51,8 @@ internal static class ConeLimitError
 
     // The angle to the cone, and the way along the cone there, about which the X axis turns when that angle alone changes. PhysX's axis, square to
     // the ellipse's normal as it is among the swing angles, is off by some 12 degrees near the tip of a narrow cone, and more beyond it: what
-    // holds by it gives energy. The search begins at the point that is nearest among the swing angles.
-    private static double ExactError(in ConeLimit limit, double py, double pz, Vector3d twistAxis, out Vector3d axis)
+    // holds by it gives energy.
+    private static double ExactError(in ConeLimit limit, double y, double z, Vector3d twistAxis, out Vector3d axis)
     {
         Vector3d line, along;
         if (limit.Response.IsSoft && twistAxis.X < 0)
@@ -61,19 +61,20 @@ internal static class ConeLimitError
         }
         else
         {
-            FindNear(limit, py, pz, twistAxis, out line, out along);
+            FindNear(limit, y, z, twistAxis, out line, out along);
         }
 
         axis = along * (1 / along.Length);
         return Trigonometry.Atan2(Vector3d.Dot(Vector3d.Cross(line, axis), twistAxis), Vector3d.Dot(line, twistAxis));
     }
 
-    // Of a hard cone the line at the ellipse's point, which on the cone is the nearest.
-    private static void FindNear(in ConeLimit limit, double py, double pz, Vector3d twistAxis, out Vector3d line, out Vector3d along)
+    // The search begins at the point of the ellipse that is nearest among the swing angles. Of a hard cone it ends there, as on the cone that is the nearest.
+    private static void FindNear(in ConeLimit limit, double y, double z, Vector3d twistAxis, out Vector3d line, out Vector3d along)
     {
         const int most = 20;
         const double enough = 1e-14;
         const double widest = 0.3;
+        NearestOnEllipse(y, z, limit.Y, limit.Z, Exact, out double py, out double pz);
         double at = Trigonometry.Atan2(pz / limit.Z, py / limit.Y);
         double before = at - 1e-3 * Math.Min(limit.Y, limit.Z) / Math.Max(limit.Y, limit.Z);
         double last = limit.Response.IsSoft ? Along(limit, before, twistAxis, out _, out _) : 0;

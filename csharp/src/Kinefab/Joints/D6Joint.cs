@@ -323,23 +323,14 @@ internal sealed class D6Joint : JointModel
             double angle = Followed(Twisted(f));
             if (LimitsFromAfar && !HasCardanTwist)
             {
-                WeighedTwistLimits(ref writer, f, x1, angle);
-                return;
+                writer.WeighedTwistLimits(f.Axis0(0), x1, angle, TwistLimit);
             }
-
-            // PhysX's row is not the gradient of its angle while the joint swings: what holds by it gives energy and drifts.
-            writer.AngleLimits(HasCardanTwist ? CardanGradient(f) : x1, angle, TwistLimit.Lower, TwistLimit.Upper, TwistLimit.Response);
+            else
+            {
+                // PhysX's row is not the gradient of its angle while the joint swings: what holds by it gives energy and drifts.
+                writer.AngleLimits(HasCardanTwist ? CardanGradient(f) : x1, angle, TwistLimit.Lower, TwistLimit.Upper, TwistLimit.Response);
+            }
         }
-    }
-
-    // C = c times the twist that is left to a limit, c = cos(swing / 2): the same limit by a J that is a unit vector at any swing. PhysX's soft limit has
-    // the torque k C / c along X1, which has no potential; the gradient of the angle itself would be k C / c^2.
-    private void WeighedTwistLimits(ref RowWriter writer, in JointFrames f, Vector3d x1, double angle)
-    {
-        Vector3d lower = SwingTwist.WeighedGradient(f.Axis0(0), x1, TwistLimit.Lower - angle, out double weight);
-        Vector3d upper = SwingTwist.WeighedGradient(f.Axis0(0), x1, TwistLimit.Upper - angle, out _);
-        writer.AngleLimit(-lower, weight * (angle - TwistLimit.Lower), TwistLimit.Response);
-        writer.AngleLimit(upper, weight * (TwistLimit.Upper - angle), TwistLimit.Response);
     }
 
     // Where one swing is locked and the other is not, frame 1 has turned about its X from the axis that stays square to that X: the same angle as the

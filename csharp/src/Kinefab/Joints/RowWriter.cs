@@ -117,8 +117,18 @@ internal ref struct RowWriter
         }
     }
 
-    /// <summary>One limit of an angle whose J is known, however far it is: J = (0, axis; 0, axis), impulse >= 0.</summary>
-    public void AngleLimit(Vector3d axis, double error, in LimitResponse response) => Limit(ref AngularRow(axis, error), response);
+    /// <summary>
+    /// Both limits of a twist, however far: C = c times the twist that is left to them, c = cos(swing / 2), the same limits by a J that is a unit vector at any
+    /// swing, see <see cref="SwingTwist.WeighedGradient"/>. PhysX's soft limit has the torque k C / c along X1, which has no potential; the gradient of the
+    /// angle itself would be k C / c^2.
+    /// </summary>
+    public void WeighedTwistLimits(Vector3d axis0, Vector3d axis1, double angle, in AngularLimit limit)
+    {
+        Vector3d lower = SwingTwist.WeighedGradient(axis0, axis1, limit.Lower - angle, out double weight);
+        Vector3d upper = SwingTwist.WeighedGradient(axis0, axis1, limit.Upper - angle, out _);
+        Limit(ref AngularRow(-lower, weight * (angle - limit.Lower)), limit.Response);
+        Limit(ref AngularRow(upper, weight * (limit.Upper - angle)), limit.Response);
+    }
 
     /// <summary>A cone's limit, whose error is known, positive inside: J = (0, axis; 0, axis), impulse >= 0.</summary>
     public void ConeLimit(Vector3d axis, double error, in LimitResponse response)

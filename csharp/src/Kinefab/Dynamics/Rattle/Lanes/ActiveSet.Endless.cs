@@ -17,7 +17,7 @@ internal sealed partial class ActiveSet<V>
     private const int Slowdown = 2;
 
     // One that stands rests: it asks for nothing that rounding tells from rest, so that it and what holds it agree. It tries again now and then as it comes
-    // back from there; where HeldDrives sees it free, at once.
+    // back from there, and rests on until it is that much faster than one that nothing can follow; where HeldDrives sees it free, at once.
     private const int Resting = 60;
     private const int Awake = 4;
     private const int Return = 4;
@@ -175,6 +175,8 @@ internal sealed partial class ActiveSet<V>
                 : stands || rests ? Resting
                 : comes ? before
                 : Math.Min(MostSlowdowns, before + Slowdown));
+
+            // Not silently: it is named as one that stalls.
             scalar.IsStalled |= isFollowed && growth > MostHeavier;
             scalar.HasRested = Rests(scalar);
             isAny |= scalar.Slowdowns > 0;

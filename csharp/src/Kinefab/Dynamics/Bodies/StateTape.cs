@@ -31,6 +31,22 @@ internal sealed class StateTape
             _parts.Add((T[])part.Clone());
     }
 
+    /// <summary>The numbers of one lane of an array that keeps its length: number i of it stands at i * width + lane.</summary>
+    public void Lane(double[] part, int lane, int width)
+    {
+        double[] taken = IsPlaying ? (double[])_parts[_next++]! : new double[part.Length / width];
+        for (int i = 0; i < taken.Length; i++)
+        {
+            if (IsPlaying)
+                part[i * width + lane] = taken[i];
+            else
+                taken[i] = part[i * width + lane];
+        }
+
+        if (!IsPlaying)
+            _parts.Add(taken);
+    }
+
     /// <summary>A value, or a reference to what never changes.</summary>
     public void Value<T>(ref T part)
     {

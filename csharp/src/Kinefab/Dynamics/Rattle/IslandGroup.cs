@@ -16,6 +16,12 @@ internal abstract class IslandGroup
     private int _stops;
     private double _substepWork;
 
+    /// <param name="islands">With all of their rows.</param>
+    protected IslandGroup(Island[] islands) => Islands = islands;
+
+    /// <summary>The islands with all of their rows.</summary>
+    public Island[] Islands { get; }
+
     /// <summary>One step of all islands.</summary>
     /// <param name="dt">Step, s.</param>
     /// <param name="tolerance">Largest C, metres or radians.</param>
@@ -29,6 +35,15 @@ internal abstract class IslandGroup
 
     /// <summary>What the next step takes from those before it.</summary>
     public abstract void Exchange(StateTape tape);
+
+    /// <summary>The same of one island, for a group in which it has another place.</summary>
+    /// <param name="tape">Takes it down, or has it.</param>
+    /// <param name="island">Index in <see cref="Islands"/>.</param>
+    public abstract void Exchange(StateTape tape, int island);
+
+    /// <summary>Takes back what the last step of an island only showed, where no other follows here.</summary>
+    /// <param name="island">Index in <see cref="Islands"/>.</param>
+    public abstract void UndoShown(int island);
 
     /// <summary>Tells the mechanism what the last step had to say, and forgets it.</summary>
     public void Report(MultibodySystem mechanism)

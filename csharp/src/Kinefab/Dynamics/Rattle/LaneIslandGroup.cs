@@ -13,7 +13,6 @@ internal sealed class LaneIslandGroup<V> : IslandGroup
     where V : struct, ILane<V>
 {
     private readonly MultibodySystem _mechanism;
-    private readonly LaneIsland[] _islands;
     private readonly LaneStep<V>[] _free;
 
     // Of the same lanes, with the rows of limits; empty without such.
@@ -28,20 +27,20 @@ internal sealed class LaneIslandGroup<V> : IslandGroup
     private readonly StepController _controller;
 
     public LaneIslandGroup(MultibodySystem mechanism, List<LaneIsland> islands)
+        : base(Array.ConvertAll(islands.ToArray(), island => island.Alone))
     {
         _mechanism = mechanism;
-        _islands = islands.ToArray();
-        LaneIsland shape = _islands[0];
+        LaneIsland shape = islands[0];
         foreach (Island form in shape.Forms)
         {
             form.Order(mechanism.Cancellation);
         }
 
-        _free = Steps(shape.InLanes, island => island.InLanes);
-        _resting = shape.Resting is null ? Array.Empty<LaneStep<V>>() : Steps(shape.Resting, island => island.Resting!);
-        _histories = new SubstepHistory[_islands.Length];
-        _stills = Array.ConvertAll(_islands, _ => new Standstill());
-        _memories = shape.Alone.ScalarCount == 0 ? Array.Empty<AloneMemory>() : Array.ConvertAll(_islands, island => new AloneMemory(island.Alone, mechanism.Bodies));
+        _free = Steps(shape.InLanes, islands.ConvertAll(island => island.InLanes));
+        _resting = shape.Resting is null ? Array.Empty<LaneStep<V>>() : Steps(shape.Resting, islands.ConvertAll(island => island.Resting!));
+        _histories = new SubstepHistory[Islands.Length];
+        _stills = Array.ConvertAll(Islands, _ => new Standstill());
+        _memories = shape.Alone.ScalarCount == 0 ? Array.Empty<AloneMemory>() : Array.ConvertAll(Islands, island => new AloneMemory(island, mechanism.Bodies));
         _spare = new LaneBatch<ScalarLane>(shape.Alone, new Workspace<ScalarLane>(shape.Alone));
         _controller = new StepController(_spare);
     }
@@ -51,7 +50,7 @@ internal sealed class LaneIslandGroup<V> : IslandGroup
     {
         foreach (AloneMemory memory in _memories)
         {
-            memory.BeginStep();
+            memory.UndoShown();
         }
 
         for (int i = 0; i < _free.Length; i++)
@@ -116,6 +115,32 @@ internal sealed class LaneIslandGroup<V> : IslandGroup
         foreach (AloneMemory memory in _memories)
         {
             memory.Exchange(tape);
+        }
+    }
+
+    /// <inheritdoc/>
+    public override void Exchange(StateTape tape, int island)
+    {
+        (int index, int lane) = (island / Lane<V>.Width, island % Lane<V>.Width);
+        _free[index].Exchange(tape, lane);
+        if (_resting.Length > 0)
+        {
+            _resting[index].Exchange(tape, lane);
+        }
+
+        tape.Value(ref _histories[island]);
+        if (_memories.Length > 0)
+        {
+            _memories[island].Exchange(tape);
+        }
+    }
+
+    /// <inheritdoc/>
+    public override void UndoShown(int island)
+    {
+        if (_memories.Length > 0)
+        {
+            _memories[island].UndoShown();
         }
     }
 
@@ -198,12 +223,12 @@ internal sealed class LaneIslandGroup<V> : IslandGroup
     // The world still holds the island's state before the step, the lane its impulses.
     private void AdvanceAlone(LaneStep<V> free, int index, int lane, double dt, double tolerance)
     {
-        Island island = _islands[index * Lane<V>.Width + lane].Alone;
+        Island island = Islands[index * Lane<V>.Width + lane];
         LaneTransfer<ScalarLane>.GatherConstants(_spare, 0, island, _mechanism);
         LaneTransfer<ScalarLane>.Gather(_spare, _mechanism, dt);
         LaneTransfer<ScalarLane>.BeginStep(_spare);
         _spare.ClearHistory();
-        _spare.Scalars?.ClearSlowdowns();
+        _spare.Scalars?.Reset();
         LaneTransfer<V>.CopyGuess(free.Batch, lane, _spare, 0);
         AxisRows<V>? axes = (_resting.Length > 0 ? _resting[index] : free).Batch.Axes;
         AloneMemory? memory = _memories.Length > 0 ? _memories[index * Lane<V>.Width + lane] : null;
@@ -250,15 +275,15 @@ internal sealed class LaneIslandGroup<V> : IslandGroup
 
     private ref SubstepHistory History(int batch, int lane) => ref _histories[batch * Lane<V>.Width + lane];
 
-    private LaneStep<V>[] Steps(Island shape, Func<LaneIsland, Island> form)
+    private LaneStep<V>[] Steps(Island shape, List<Island> islands)
     {
         int w = Lane<V>.Width;
-        var steps = new LaneStep<V>[(_islands.Length + w - 1) / w];
+        var steps = new LaneStep<V>[(islands.Count + w - 1) / w];
         var workspace = new Workspace<V>(shape);
         for (int i = 0; i < steps.Length; i++)
         {
-            int occupied = Math.Min(w, _islands.Length - i * w);
-            steps[i] = new LaneStep<V>(_mechanism, Array.ConvertAll(_islands.AsSpan(i * w, occupied).ToArray(), island => form(island)), shape, workspace);
+            int occupied = Math.Min(w, islands.Count - i * w);
+            steps[i] = new LaneStep<V>(_mechanism, islands.GetRange(i * w, occupied).ToArray(), shape, workspace);
         }
 
         return steps;

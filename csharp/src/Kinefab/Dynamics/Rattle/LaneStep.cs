@@ -316,6 +316,14 @@ internal sealed class LaneStep<V>
         tape.Array(_isBuilt);
     }
 
+    /// <summary>The same of one lane, between steps.</summary>
+    public void Exchange(StateTape tape, int lane)
+    {
+        Batch.Exchange(tape, lane);
+        Batch.Axes?.Exchange(tape, lane);
+        tape.Value(ref _isBuilt[lane]);
+    }
+
     private void MeasureEnergy(double dt)
     {
         Workspace<V> work = Batch.Work;

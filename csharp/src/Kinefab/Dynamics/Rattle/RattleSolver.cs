@@ -146,6 +146,19 @@ internal sealed class RattleSolver : ISolver, IStepParts
         }
     }
 
+    // What a break or a bridge between islands has made of loops that were probed is as bad as the worst of them, while it has loops.
+    private LoopConsistency Consistency(Island island)
+    {
+        LoopConsistency worst = LoopConsistency.Exact;
+        foreach (RowBlock block in island.Blocks)
+        {
+            bool isProbed = block.Joint != null && _fits.ContainsKey(block.Index) && island.HasJointLoops;
+            worst = isProbed && _fits[block.Index] > worst ? _fits[block.Index] : worst;
+        }
+
+        return worst;
+    }
+
     // What is found takes its place at the end and in whole, lest one that is ended early leave half of it.
     private void Regroup(KnownPatterns known)
     {
@@ -155,9 +168,7 @@ internal sealed class RattleSolver : ISolver, IStepParts
         {
             _mechanism.Cancellation.ThrowIfCancellationRequested();
 
-            // What a break has left of an island that was probed is still as it was found.
-            RowBlock? probed = Array.Find(island.Blocks, block => block.Joint != null && _fits.ContainsKey(block.Index));
-            island.Loops = probed is null ? LoopConsistency.Exact : _fits[probed.Index];
+            island.Loops = Consistency(island);
             LaneIsland? lanes = LaneIsland.Of(island);
             if (lanes is null)
             {
@@ -175,7 +186,9 @@ internal sealed class RattleSolver : ISolver, IStepParts
             }
         }
 
-        _groups = MakeGroups(alone, inLanes);
+        List<IslandGroup> groups = MakeGroups(alone, inLanes);
+        CarryOver(_groups, groups);
+        _groups = groups;
         _alone = alone;
         _inLanes = inLanes;
         _watch = new LayoutWatch(_mechanism.Joints);
@@ -186,6 +199,40 @@ internal sealed class RattleSolver : ISolver, IStepParts
             {
                 _mechanism.Reactions[i] = default;
             }
+        }
+    }
+
+    // Islands that are as they were go on as if nothing had been found anew.
+    private static void CarryOver(List<IslandGroup> from, List<IslandGroup> to)
+    {
+        var known = new Dictionary<int, (IslandGroup Group, int Island)>();
+        foreach (IslandGroup group in from)
+        {
+            for (int i = 0; i < group.Islands.Length; i++)
+            {
+                known.Add(group.Islands[i].Bodies[0], (group, i));
+            }
+        }
+
+        foreach (IslandGroup group in to)
+        {
+            for (int i = 0; i < group.Islands.Length; i++)
+            {
+                int body = group.Islands[i].Bodies[0];
+                if (known.TryGetValue(body, out (IslandGroup Group, int Island) old) && group.Islands[i].IsSameAs(old.Group.Islands[old.Island]))
+                {
+                    var tape = new StateTape();
+                    old.Group.Exchange(tape, old.Island);
+                    tape.Play();
+                    group.Exchange(tape, i);
+                    known.Remove(body);
+                }
+            }
+        }
+
+        foreach ((IslandGroup group, int island) in known.Values)
+        {
+            group.UndoShown(island);
         }
     }
 

@@ -8,7 +8,6 @@ namespace Kinefab.Dynamics.Rattle;
 internal sealed class ScalarIslandGroup : IslandGroup
 {
     private readonly MultibodySystem _mechanism;
-    private readonly Island[] _islands;
     private readonly LaneBatch<ScalarLane>[] _batches;
     private readonly StepController[] _controllers;
     private readonly StiffSpringCorrection?[] _corrections;
@@ -16,28 +15,28 @@ internal sealed class ScalarIslandGroup : IslandGroup
     private readonly Standstill[] _stills;
 
     public ScalarIslandGroup(MultibodySystem mechanism, List<Island> islands)
+        : base(islands.ToArray())
     {
         _mechanism = mechanism;
-        _islands = islands.ToArray();
-        _batches = new LaneBatch<ScalarLane>[_islands.Length];
-        _controllers = new StepController[_islands.Length];
-        _corrections = new StiffSpringCorrection?[_islands.Length];
-        _histories = new SubstepHistory[_islands.Length];
-        _stills = Array.ConvertAll(_islands, _ => new Standstill());
-        for (int i = 0; i < _islands.Length; i++)
+        _batches = new LaneBatch<ScalarLane>[Islands.Length];
+        _controllers = new StepController[Islands.Length];
+        _corrections = new StiffSpringCorrection?[Islands.Length];
+        _histories = new SubstepHistory[Islands.Length];
+        _stills = Array.ConvertAll(Islands, _ => new Standstill());
+        for (int i = 0; i < Islands.Length; i++)
         {
-            _islands[i].Order(mechanism.Cancellation);
-            _batches[i] = new LaneBatch<ScalarLane>(_islands[i], new Workspace<ScalarLane>(_islands[i]));
+            Islands[i].Order(mechanism.Cancellation);
+            _batches[i] = new LaneBatch<ScalarLane>(Islands[i], new Workspace<ScalarLane>(Islands[i]));
             _controllers[i] = new StepController(_batches[i]);
-            _corrections[i] = _islands[i].ScalarCount > 0 ? new StiffSpringCorrection(_islands[i], mechanism.Bodies) : null;
-            LaneTransfer<ScalarLane>.GatherConstants(_batches[i], 0, _islands[i], mechanism);
+            _corrections[i] = Islands[i].ScalarCount > 0 ? new StiffSpringCorrection(Islands[i], mechanism.Bodies) : null;
+            LaneTransfer<ScalarLane>.GatherConstants(_batches[i], 0, Islands[i], mechanism);
         }
     }
 
     /// <inheritdoc/>
     public override void Step(double dt, double tolerance, bool areReactionsAwaited)
     {
-        for (int i = 0; i < _islands.Length; i++)
+        for (int i = 0; i < Islands.Length; i++)
         {
             LaneBatch<ScalarLane> batch = _batches[i];
             _corrections[i]?.Undo();
@@ -53,7 +52,7 @@ internal sealed class ScalarIslandGroup : IslandGroup
             RattleStep<ScalarLane>.ReloadState(batch);
             int stops = _controllers[i].DampedSteps;
             _controllers[i].Advance(dt, tolerance, ref _histories[i], _stills[i], false, isMoved);
-            Note(_controllers[i], _islands[i], stops);
+            Note(_controllers[i], Islands[i], stops);
             if (_controllers[i].DampedSteps == stops)
             {
                 _corrections[i]?.Apply(batch, dt);
@@ -69,12 +68,20 @@ internal sealed class ScalarIslandGroup : IslandGroup
     /// <inheritdoc/>
     public override void Exchange(StateTape tape)
     {
-        for (int i = 0; i < _batches.Length; i++)
+        for (int i = 0; i < Islands.Length; i++)
         {
-            _batches[i].Exchange(tape);
-            _corrections[i]?.Exchange(tape);
+            Exchange(tape, i);
         }
-
-        tape.Array(_histories);
     }
+
+    /// <inheritdoc/>
+    public override void Exchange(StateTape tape, int island)
+    {
+        _batches[island].Exchange(tape);
+        _corrections[island]?.Exchange(tape);
+        tape.Value(ref _histories[island]);
+    }
+
+    /// <inheritdoc/>
+    public override void UndoShown(int island) => _corrections[island]?.Undo();
 }

@@ -241,12 +241,13 @@ internal sealed class Substep
 
         // None where a pose so far off has no number for it.
         int first = scalars.FirstReached(left);
-        if (first >= 0 && TryReach(left, passed, scalars.Row(first), tolerance, out piece))
+        bool isPassedAtOnce = false;
+        if (first >= 0 && TryReach(left, passed, scalars.Row(first), tolerance, out piece, out isPassedAtOnce))
         {
             return true;
         }
 
-        if (first >= 0 && scalars.HoldBack(first, left, tolerance))
+        if (isPassedAtOnce && scalars.HoldBack(first))
         {
             ReturnToPieceStart(left);
             return TryPiece(left, tolerance, out piece);
@@ -258,8 +259,9 @@ internal sealed class Substep
 
     // The drift as long as leads to the first limit on its way: the least C of those that are apart, by Chandrupatla's rule, which takes the inverse
     // parabola through the last three lengths where it may be trusted and halves the bracket elsewhere. Source: Chandrupatla 1997.
-    private bool TryReach(double longest, double passed, ScalarRow first, double tolerance, out double piece)
+    private bool TryReach(double longest, double passed, ScalarRow first, double tolerance, out double piece, out bool isPassedAtOnce)
     {
+        isPassedAtOnce = false;
         double aim = (MostShort - MostPassed) / 2 * tolerance;
         double before = first.IsActive ? Math.Max(first.StartError, Math.Max(first.StartSpeed * longest, tolerance)) : -passed;
         var bracket = new RootBracket(0, before, longest, passed - aim, first.ReachedAt(longest));
@@ -282,7 +284,8 @@ internal sealed class Substep
             bracket.Add(piece, nearest - aim);
             if (bracket.Early == 0 && trial >= MostLate)
             {
-                break;
+                isPassedAtOnce = true;
+                return false;
             }
         }
 

@@ -377,6 +377,13 @@ internal sealed class AxisRows<V>
         tape.Array(_first);
     }
 
+    /// <summary>The same of one lane.</summary>
+    public void Exchange(StateTape tape, int lane)
+    {
+        tape.Lane(_factored, lane, Lane<V>.Width);
+        tape.Lane(_first, lane, Lane<V>.Width);
+    }
+
     // A motor's row is about the axis reversed.
     private static double Orientation(JointModel joint) => joint is RevoluteJoint { MotorEnabled: true } ? -1 : 1;
 

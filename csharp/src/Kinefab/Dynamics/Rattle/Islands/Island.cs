@@ -58,6 +58,7 @@ internal sealed class Island
     private const int HubRows = 6;
 
     // The pattern is built when it is first asked for, since Unity's solver, and an island that is only looked at for loops, do without.
+    private readonly double[] _inverseMasses;
     private readonly Vector3d[] _inverseInertias;
     private readonly int[] _sizes;
     private readonly List<(int Node, int Side)>[] _touching;
@@ -70,14 +71,20 @@ internal sealed class Island
     /// <param name="bodies">Index in the mechanism (or Joint.World) of each body, the moving ones first.</param>
     /// <param name="movingBodies">How many move.</param>
     /// <param name="blocks">Joints and couplings, their bodies as in the first list.</param>
-    /// <param name="inverseInertias">Of the mechanism's bodies, about principal axes, 1/(kg m^2).</param>
-    public Island(int[] bodies, int movingBodies, RowBlock[] blocks, Vector3d[] inverseInertias)
-        : this(bodies, movingBodies, blocks, inverseInertias, null)
+    /// <param name="all">The mechanism's bodies.</param>
+    public Island(int[] bodies, int movingBodies, RowBlock[] blocks, Bodies all)
+        : this(
+            bodies,
+            movingBodies,
+            blocks,
+            Array.ConvertAll(bodies.AsSpan(0, movingBodies).ToArray(), body => all.InverseMasses[body]),
+            Array.ConvertAll(bodies.AsSpan(0, movingBodies).ToArray(), body => all.InverseInertias[body]),
+            null)
     {
     }
 
     // The origin is the island that this is a form of.
-    private Island(int[] bodies, int movingBodies, RowBlock[] blocks, Vector3d[] inverseInertias, Island? origin)
+    private Island(int[] bodies, int movingBodies, RowBlock[] blocks, double[] inverseMasses, Vector3d[] inverseInertias, Island? origin)
     {
         _origin = origin;
         Bodies = bodies;
@@ -113,14 +120,15 @@ internal sealed class Island
         }
 
         HasKinematic = Array.IndexOf(IsStatic, false, movingBodies) >= 0;
+        _inverseMasses = inverseMasses;
         _inverseInertias = inverseInertias;
         RotationSplittings = new RotationSplitting[movingBodies];
         for (int b = 0; b < movingBodies; b++)
         {
-            RotationSplittings[b] = new RotationSplitting(inverseInertias[bodies[b]]);
+            RotationSplittings[b] = new RotationSplitting(inverseInertias[b]);
         }
 
-        LockedInertiaBodies = FindLockedInertia(bodies, movingBodies, inverseInertias);
+        LockedInertiaBodies = FindLockedInertia(inverseInertias);
         MeanRateBodies = FindMeanRate(blocks, movingBodies);
         _sizes = sizes;
         _touching = touching;
@@ -222,7 +230,7 @@ internal sealed class Island
         }
 
         RowBlock[] plain = Array.ConvertAll(Blocks, block => block.InLanes(Blocks, holdsLimits));
-        return ((IsInconsistent || Hubs.Length > 0) && Array.Exists(plain, block => block.HasAxisRow)) || Array.Exists(plain, block => block.IsAssembled || block.Rows == 0) ? null : new Island(Bodies, MovingBodies, plain, _inverseInertias, this) { Loops = Loops };
+        return ((IsInconsistent || Hubs.Length > 0) && Array.Exists(plain, block => block.HasAxisRow)) || Array.Exists(plain, block => block.IsAssembled || block.Rows == 0) ? null : new Island(Bodies, MovingBodies, plain, _inverseMasses, _inverseInertias, this) { Loops = Loops };
     }
 
     /// <summary>Whether the other island is of the same build, so that both can share lanes.</summary>
@@ -274,6 +282,19 @@ internal sealed class Island
         return true;
     }
 
+    /// <summary>Whether the other one holds the same bodies, of the same masses, by the same joints with the same rows: what was kept of it still holds.</summary>
+    public bool IsSameAs(Island other)
+    {
+        bool isSame = Loops == other.Loops && Blocks.Length == other.Blocks.Length && Bodies.AsSpan().SequenceEqual(other.Bodies) && MovingBodies == other.MovingBodies
+            && _inverseMasses.AsSpan().SequenceEqual(other._inverseMasses) && _inverseInertias.AsSpan().SequenceEqual(other._inverseInertias);
+        for (int n = 0; n < Blocks.Length && isSame; n++)
+        {
+            isSame = Blocks[n].IsSameAs(other.Blocks[n]);
+        }
+
+        return isSame;
+    }
+
     private static int[] FindMeanRate(RowBlock[] blocks, int movingBodies)
     {
         var rated = new SortedSet<int>();
@@ -289,12 +310,12 @@ internal sealed class Island
         return new List<int>(rated).ToArray();
     }
 
-    private static int[] FindLockedInertia(int[] bodies, int movingBodies, Vector3d[] inverseInertias)
+    private static int[] FindLockedInertia(Vector3d[] inverseInertias)
     {
         var frozen = new List<int>();
-        for (int b = 0; b < movingBodies; b++)
+        for (int b = 0; b < inverseInertias.Length; b++)
         {
-            Vector3d inverse = inverseInertias[bodies[b]];
+            Vector3d inverse = inverseInertias[b];
             if (inverse.X == 0 || inverse.Y == 0 || inverse.Z == 0)
             {
                 frozen.Add(b);

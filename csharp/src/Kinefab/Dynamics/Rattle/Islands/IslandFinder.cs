@@ -164,7 +164,7 @@ internal static class IslandFinder
             }
 
             _moving.AddRange(_fixed);
-            return new Island(_moving.ToArray(), _moving.Count - _fixed.Count, blocks, _bodies.InverseInertias);
+            return new Island(_moving.ToArray(), _moving.Count - _fixed.Count, blocks, _bodies);
         }
 
         private RowBlock MakeNode(CoordinateCoupling coupling, int index)

@@ -135,19 +135,21 @@ internal class LaneRecords<V>
     /// <summary>What the next step takes from those before it.</summary>
     public void Exchange(StateTape tape)
     {
-        tape.Array(Bodies);
-        tape.Array(Joints);
-        tape.Array(Linear);
-        tape.Array(Angular);
-        tape.Array(Matrix);
-        tape.Array(Assembled);
-        tape.Array(VelocityImpulses);
-        tape.Array(Compliance);
+        Array.ForEach(Kept, tape.Array);
         double softStep = CompliantStep;
         tape.Value(ref softStep);
         CompliantStep = softStep;
         Scalars?.Exchange(tape);
     }
+
+    /// <summary>The same of one lane, between steps.</summary>
+    public void Exchange(StateTape tape, int lane)
+    {
+        Array.ForEach(Kept, numbers => tape.Lane(numbers, lane, Width));
+        Scalars?.Exchange(tape);
+    }
+
+    private double[][] Kept => new[] { Bodies, Joints, Linear, Angular, Matrix, Assembled, VelocityImpulses, Compliance };
 
     /// <summary>Forgets what earlier steps left behind.</summary>
     public void ClearHistory()

@@ -66,6 +66,9 @@ internal sealed class RowBlock
     public readonly JointModel? Joint;
     public readonly CoordinateCoupling? Coupling;
 
+    /// <summary>Of the joint's layout when the block was made.</summary>
+    public readonly int Signature;
+
     /// <summary>Index in the mechanism's joints or couplings.</summary>
     public readonly int Index;
 
@@ -122,6 +125,7 @@ internal sealed class RowBlock
         Coupled = Array.Empty<int>();
         var classes = new List<RowClass>();
         RowLayout layout = joint.Layout();
+        Signature = layout.Signature;
         LinearMask = layout.Locked & 0b111;
         Angular = (layout.Locked >> 3) switch
         {
@@ -238,7 +242,7 @@ internal sealed class RowBlock
     public bool IsAssembled => (Coupling != null && Coupled.Length == 0) || ScalarCount > 0 || Angular == AngularForm.Prepared;
 
     /// <summary>Whether prepared rows are worth a second look at the end of the drift; a hinge's axis on the world stays.</summary>
-    public bool HasMovingRows => Angular == AngularForm.Prepared || Limits > 0 || (Drives > 0 && !(Joint is RevoluteJoint && Joint.Body0 == JointModel.World));
+    public bool HasMovingRows => Angular == AngularForm.Prepared || Limits > 0 || Drives > 0;
 
     /// <summary>The block as it stands in lanes: without the rows of its limits, a hinge with one about its axis; a coupling of hinges with the blocks of these.</summary>
     /// <param name="blocks">Of its island.</param>
@@ -275,6 +279,9 @@ internal sealed class RowBlock
 
         return HasSame(Bodies, other.Bodies);
     }
+
+    /// <summary>Whether the other one is the same joint or coupling, between the same bodies, with the same rows.</summary>
+    public bool IsSameAs(RowBlock other) => Joint == other.Joint && Coupling == other.Coupling && Signature == other.Signature && HasSame(Bodies, other.Bodies);
 
     private static bool HasSame(int[] a, int[] b) => a.AsSpan().SequenceEqual(b);
 }

@@ -124,12 +124,12 @@ internal sealed class ScalarRows
         }
     }
 
-    /// <summary>No drive is slowed down.</summary>
-    public void ClearSlowdowns()
+    /// <summary>Nothing is known of steps before, as of another island.</summary>
+    public void Reset()
     {
         for (int i = 0; i < _rows.Length; i++)
         {
-            _rows[i].Slowdowns = 0;
+            _rows[i] = new ScalarRow { Block = _rows[i].Block, BlockRow = _rows[i].BlockRow, Index = _rows[i].Index };
         }
     }
 

@@ -326,7 +326,7 @@ internal sealed partial class ActiveSet<V>
         {
             _rows[i].IsHeld = false;
             _rows[i].IsOpposing = false;
-            if (_rows[i].IsEndlessDrive)
+            if (_rows[i].IsEndlessDrive && Response(_rows[i]) > ScalarRow.LeastResponse)
             {
                 found.Add(i);
             }

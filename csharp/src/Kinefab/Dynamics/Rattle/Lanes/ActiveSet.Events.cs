@@ -72,17 +72,14 @@ internal sealed partial class ActiveSet<V>
     }
 
     /// <summary>
-    /// Where no drift is short enough not to pass a limit that its joint stands at and is about to leave, as a drive without limit of force pushes it back
-    /// at once, or as what other rows are open by is more than the way by which it leaves: it is held from the piece's start on. False where it is another.
+    /// Holds a hard limit from the piece's start on that every drift passes, however short: as where a drive or a damper pushes back at once what leaves
+    /// it, or where closing other rows moves the joint by more than its own speed does. False where it is held already.
     /// </summary>
     /// <param name="index">The row's.</param>
-    /// <param name="left">Longest that the drift may be, s.</param>
-    /// <param name="tolerance">Largest C, m or rad.</param>
-    public bool HoldBack(int index, double left, double tolerance)
+    public bool HoldBack(int index)
     {
         ref ScalarRow scalar = ref _rows[index];
-        bool hardlyLeaves = HasEndless() || scalar.StartSpeed * left <= Reach * tolerance;
-        bool isOne = hardlyLeaves && scalar.IsActive && scalar.StartError <= Reach * tolerance && !scalar.IsLeft && !scalar.IsHeldBack && IsThrownBack(scalar);
+        bool isOne = scalar.IsActive && IsHardLimit(scalar.Built) && !scalar.IsLeft && !scalar.IsHeldBack;
         scalar.IsHeldBack |= isOne;
         return isOne;
     }

@@ -73,7 +73,7 @@ internal sealed partial class ActiveSet<V>
             scalar.Kind = scalar.FindKind(SoftReach(scalar, h, tolerance));
             scalar.StartSpeed = scalar.IsActive ? StartSpeed(scalar) : 0;
             scalar.Allowed = scalar.Kind == RowKind.Limit && scalar.StartError < -ScalarRow.MostClosedByDrift ? scalar.StartError : 0;
-            bool isReached = scalar.Allowed < 0 || (scalar.StartError <= Reach * tolerance && !scalar.IsLeft && (scalar.IsHeldBack || !IsThrownBack(scalar)));
+            bool isReached = scalar.Allowed < 0 || (!scalar.IsLeft && (scalar.IsHeldBack || (scalar.StartError <= Reach * tolerance && !IsThrownBack(scalar))));
             scalar.IsApart = LocatesEvents && (!scalar.IsActive || (scalar.Built.Has(RowFlags.Limit) && !isReached));
             scalar.HasDrawn = false;
             scalar.Kind = scalar.IsHeld ? RowKind.None : scalar.Kind;

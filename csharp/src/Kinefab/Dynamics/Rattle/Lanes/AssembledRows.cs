@@ -57,7 +57,7 @@ internal static class AssembledRows<V>
         {
             batch.Scalars!.AdoptEndRows(n);
         }
-        else if (block.HasMovingRows || !batch.Scalars!.HasMotorAlone(n))
+        else
         {
             Read(batch, n);
         }

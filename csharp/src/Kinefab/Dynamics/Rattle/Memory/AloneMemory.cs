@@ -19,7 +19,7 @@ internal sealed class AloneMemory
     }
 
     /// <summary>Takes back, before a step is loaded, what the last one only showed.</summary>
-    public void BeginStep() => _correction.Undo();
+    public void UndoShown() => _correction.Undo();
 
     /// <summary>The island made a step in lanes: no limit acted.</summary>
     public void Forget() => _wasAlone = false;

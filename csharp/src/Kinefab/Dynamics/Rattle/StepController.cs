@@ -117,6 +117,7 @@ internal sealed partial class StepController
         _isAudited = LaneEnergy<ScalarLane>.IsKnown(_batch, 0);
         _batch.ActiveSet?.BeginPace(dt);
         isMoved |= _batch.ActiveSet != null && _batch.ActiveSet.IsNewlyPassed();
+        _part.HoldsPassedLimits = false;
         HasClosed = isMoved && _closure.TryClose(tolerance);
         _forbidden = isMoved && !_batch.Shape.IsInconsistent ? InitialVelocityProjection.Find(_batch, out _forbiddenSpeed) : -1;
         bool hasSettled = hasFailed || HasClosed || HasForbiddenSpeed;
@@ -390,6 +391,7 @@ internal sealed partial class StepController
         _part.SetLength(h);
         start.Save(_batch);
         bool isHopeless = _dampedInStep == MaxDampedSteps;
+        _part.HoldsPassedLimits = depth >= MaxDepth;
         if (!isHopeless && _part.TryRattle(h, tolerance) && IsEnergyKept(depth, h))
         {
             _hasMoved = true;

@@ -59,6 +59,9 @@ internal sealed class Substep
     /// <summary>Whether rows keep to their bounds in every iteration, see <see cref="RattleStep{V}.KickAndDrift"/>.</summary>
     public bool IsEager { get; set; }
 
+    /// <summary>Whether a limit that every drift passes, however short, is held from its start on, whatever moves it: where shorter parts do not help.</summary>
+    public bool HoldsPassedLimits { get; set; }
+
     /// <summary>The impulses that were loaded are those of parts of this length.</summary>
     public void Begin(double h) => _length = h;
 
@@ -247,7 +250,7 @@ internal sealed class Substep
             return true;
         }
 
-        if (isPassedAtOnce && scalars.HoldBack(first))
+        if (isPassedAtOnce && scalars.HoldBack(first, left, HoldsPassedLimits, tolerance))
         {
             ReturnToPieceStart(left);
             return TryPiece(left, tolerance, out piece);

@@ -107,7 +107,7 @@ internal struct ScalarRow
     /// <summary>Whether a limit that is reached at the start of the drift is left in it and passed at its end: it is apart until this piece has ended.</summary>
     public bool IsLeft;
 
-    /// <summary>Whether a limit that every drift passes, however short, is held from its start on: see <see cref="ActiveSet{V}.HoldBack"/>.</summary>
+    /// <summary>Whether a limit that every drift passes is held from its start on: see <see cref="ActiveSet{V}.HoldBack"/>.</summary>
     public bool IsHeldBack;
 
     /// <summary>Whether a limit was let go in this drift, as its impulse drew.</summary>

@@ -72,14 +72,18 @@ internal sealed partial class ActiveSet<V>
     }
 
     /// <summary>
-    /// Holds a hard limit from the piece's start on that every drift passes, however short: as where a drive or a damper pushes back at once what leaves
-    /// it, or where closing other rows moves the joint by more than its own speed does. False where it is held already.
+    /// Where no drift is short enough not to pass a limit: holds it from the piece's start on, where its joint stands at it and hardly leaves it, as where a
+    /// drive without limit of force pushes it back at once, or what other rows are open by is more than the way by which it leaves. False where it is another.
     /// </summary>
     /// <param name="index">The row's.</param>
-    public bool HoldBack(int index)
+    /// <param name="left">Longest that the drift may be, s.</param>
+    /// <param name="isAny">Whether any hard limit is held so: a joint that is thrown back by a stiff damper, or moved by closing other rows.</param>
+    /// <param name="tolerance">Largest C, m or rad.</param>
+    public bool HoldBack(int index, double left, bool isAny, double tolerance)
     {
         ref ScalarRow scalar = ref _rows[index];
-        bool isOne = scalar.IsActive && IsHardLimit(scalar.Built) && !scalar.IsLeft && !scalar.IsHeldBack;
+        bool hardlyLeaves = scalar.StartError <= Reach * tolerance && IsThrownBack(scalar) && (HasEndless() || scalar.StartSpeed * left <= Reach * tolerance);
+        bool isOne = (isAny || hardlyLeaves) && scalar.IsActive && IsHardLimit(scalar.Built) && !scalar.IsLeft && !scalar.IsHeldBack;
         scalar.IsHeldBack |= isOne;
         return isOne;
     }

@@ -177,7 +177,7 @@ internal sealed class LaneStep<V>
         {
             if (!_isAlone[lane])
             {
-                _hasFailed[lane] = !_converged[lane];
+                _hasFailed[lane] = !_converged[lane] || FreeMotion<V>.HasTurnedFar(Batch, lane);
                 _isAlone[lane] = _hasFailed[lane] || (_limits != null && _limits.IsPassed(Batch, lane, tolerance)) || (Batch.Axes != null && !Batch.Axes.HasFreeDrift(lane));
             }
         }

@@ -214,7 +214,7 @@ internal sealed partial class StepController
         cut.IsSingular = _isSingular && !new EnergyAudit(_batch, dt, tolerance).IsKept(_energy, false, MostEnergyChange);
         Enter(ref cut.Energy);
         bool comesToRest = false;
-        cut.IsSlowedDown = _batch.ActiveSet != null && _batch.ActiveSet.EndPace(dt, tolerance, out comesToRest);
+        cut.IsSlowedDown = _batch.ActiveSet != null && _batch.ActiveSet.EndPace(dt, tolerance / dt, out comesToRest);
         if (!comesToRest)
         {
             cut.Record(halvings, demand);

@@ -147,7 +147,7 @@ internal sealed class Substep
             _batch.ActiveSet.LocatesEvents = false;
         }
 
-        if (!_implicit.TrySolve(h, tolerance) || IsLeftOpen(tolerance) || (_batch.ActiveSet != null && _batch.ActiveSet.HasMissedEvent(h, tolerance)))
+        if (!_implicit.TrySolve(h, tolerance) || IsLeftOpen(tolerance) || FreeMotion<ScalarLane>.HasTurnedFar(_batch, 0) || (_batch.ActiveSet != null && _batch.ActiveSet.HasMissedEvent(h, tolerance)))
         {
             return false;
         }
@@ -189,7 +189,7 @@ internal sealed class Substep
     {
         _batch.Work.Active[0] = 1;
         RattleStep<ScalarLane>.KickAndDrift(_batch, h, tolerance, _converged, IsEager, exact);
-        return _converged[0] && (_batch.ActiveSet == null || !_batch.ActiveSet.HasMissedEvent(h, tolerance));
+        return _converged[0] && !FreeMotion<ScalarLane>.HasTurnedFar(_batch, 0) && (_batch.ActiveSet == null || !_batch.ActiveSet.HasMissedEvent(h, tolerance));
     }
 
     /// <summary>A <see cref="ProjectedStep"/> from the start pose; energy that closing the end pose gave is taken from the speeds.</summary>
@@ -210,7 +210,7 @@ internal sealed class Substep
 
         bool isKnown = LaneEnergy<ScalarLane>.IsKnown(_batch, 0);
         EnergyAudit before = since ?? (isKnown ? new EnergyAudit(_batch, h, tolerance) : default);
-        if (!_projected.TrySolve(h, tolerance) || (_batch.ActiveSet != null && _batch.ActiveSet.HasTurnedFar(h)))
+        if (!_projected.TrySolve(h, tolerance) || FreeMotion<ScalarLane>.HasTurnedFar(_batch, 0) || (_batch.ActiveSet != null && _batch.ActiveSet.HasTurnedFar(h)))
         {
             return false;
         }

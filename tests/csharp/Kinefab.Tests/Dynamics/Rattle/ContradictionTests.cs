@@ -158,6 +158,52 @@ internal sealed class ContradictionTests
         Assert.That(m.Bodies.AngularVelocities[wheel].Z, Is.EqualTo(-70).Within(1e-3));
     }
 
+    /// <summary>A motor of a body that cannot turn at all has no response to divide by: all other drives of its island were held with it, for good.</summary>
+    [Test]
+    public void Motor_OfWhatCannotTurn_HoldsNoOther()
+    {
+        var b = new MechanismBuilder { Gravity = Vector3d.Zero };
+        int slide = b.Body(Vector3d.Zero, Quaterniond.Identity, 1, new Vector3d(double.PositiveInfinity, double.PositiveInfinity, double.PositiveInfinity));
+        int bar = b.Bar(Vector3d.Zero, Vector3d.UnitX, 1);
+        Motor(b.Hinge(JointModel.World, slide, Vector3d.Zero, Vector3d.UnitZ), 0, double.PositiveInfinity);
+        RevoluteJoint driven = b.Hinge(slide, bar, Vector3d.Zero, Vector3d.UnitZ);
+        Motor(driven, 1, double.PositiveInfinity);
+        driven.LimitEnabled = true;
+        driven.Limit = new AngularLimit { Lower = -1, Upper = 0.5 };
+        MultibodySystem m = b.Build();
+        var solver = new RattleSolver(m);
+        for (int i = 0; i < 60; i++)
+        {
+            solver.Step(Dt);
+        }
+
+        driven.Limit.Upper = 3;
+        for (int i = 0; i < 60; i++)
+        {
+            solver.Step(Dt);
+        }
+
+        Assert.That(driven.Angle(m.Bodies.PoseOf(driven.Body0), m.Bodies.PoseOf(driven.Body1)), Is.GreaterThan(1));
+    }
+
+    /// <summary>A goal is met at a drift's end, and has to be looked at there, also of a hinge whose first body is the world: it stood at a third of the way.</summary>
+    [Test]
+    public void Goal_OfAHingeThatBeginsAtTheWorld_IsReached([Values] bool isWorldFirst)
+    {
+        var b = new MechanismBuilder();
+        int arm = b.Bar(Vector3d.Zero, Vector3d.UnitX, 1);
+        RevoluteJoint hinge = isWorldFirst
+            ? b.Hinge(JointModel.World, arm, Vector3d.Zero, Vector3d.UnitZ)
+            : b.Hinge(arm, JointModel.World, Vector3d.Zero, Vector3d.UnitZ);
+        hinge.Spring = new DriveModel { Stiffness = 10, Damping = 1, ForceLimit = double.PositiveInfinity, Prescribes = Prescribed.Position };
+        hinge.SpringTarget = 0.5;
+        MultibodySystem m = b.Build();
+
+        AssertCheap(m, 120);
+
+        Assert.That(hinge.Angle(m.Bodies.PoseOf(hinge.Body0), m.Bodies.PoseOf(hinge.Body1)), Is.EqualTo(0.5).Within(1e-6));
+    }
+
     [Test]
     public void Motors_AgainstEachOtherAndALimit_AreNamed()
     {

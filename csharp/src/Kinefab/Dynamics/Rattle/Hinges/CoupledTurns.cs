@@ -6,7 +6,7 @@ namespace Kinefab.Dynamics.Rattle;
 
 /// <summary>
 /// Couplings of hinges in lanes, C = sum of g_i turn_i - offset, with g a coordinate's factor times its sign; what <see cref="CoordinateCoupling"/>
-/// says of one island for several. The row of a turn's rate is -g (0, x; 0, x).
+/// says of one island for several. The row of a turn's rate is -g (0, x; 0, -x).
 /// </summary>
 internal static class CoupledTurns<V>
     where V : struct, ILane<V>

@@ -119,6 +119,7 @@ internal sealed class Island
             }
         }
 
+        HasJointLoops = Array.FindAll(blocks, block => block.Joint != null).Length >= LeastWithLoop;
         HasKinematic = Array.IndexOf(IsStatic, false, movingBodies) >= 0;
         _inverseMasses = inverseMasses;
         _inverseInertias = inverseInertias;
@@ -192,7 +193,7 @@ internal sealed class Island
     public bool HasLoops => Blocks.Length >= LeastWithLoop;
 
     /// <summary>The same of joints alone: whether axes may contradict each other round a loop.</summary>
-    public bool HasJointLoops => Array.FindAll(Blocks, block => block.Joint != null).Length >= LeastWithLoop;
+    public bool HasJointLoops { get; }
 
     /// <summary>Whether rows may repeat each other or ask for a turn that a body does not make: by loops or by infinite moments.</summary>
     public bool IsRedundant => HasLoops || LockedInertiaBodies.Length > 0;
@@ -200,7 +201,7 @@ internal sealed class Island
     /// <summary>Moving bodies with an infinite moment of inertia.</summary>
     public int[] LockedInertiaBodies { get; }
 
-    /// <summary>Moving bodies of joints with a scalar row, whose mean rates in the drift the scalar rows ask for.</summary>
+    /// <summary>Moving bodies of joints with scalar rows, whose mean rates in the drift the scalar rows ask for.</summary>
     public int[] MeanRateBodies { get; }
 
     /// <summary>How well its loops close: see <see cref="LoopConsistencyProbe"/>.</summary>
@@ -211,7 +212,7 @@ internal sealed class Island
     /// <summary>Whether a row, in the vectors' order, locks an angle.</summary>
     public bool[] IsAngular => _isAngular ??= FindAngular();
 
-    /// <summary>Rows with a scalar row, of all blocks.</summary>
+    /// <summary>Scalar rows of all blocks.</summary>
     public int ScalarCount { get; }
 
     /// <summary>Whether some rows have no closed form in lanes.</summary>

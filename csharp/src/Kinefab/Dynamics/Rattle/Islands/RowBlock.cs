@@ -230,7 +230,7 @@ internal sealed class RowBlock
     /// <summary>Whether a row locks an angle.</summary>
     public bool IsLockedAngle(int row) => row < BilateralCount && Classes[row] == RowClass.Angular;
 
-    /// <summary>Rows that obey a scalar row.</summary>
+    /// <summary>Scalar rows: those with bounds.</summary>
     public int ScalarCount => Drives + Limits;
 
     /// <summary>Of these, the ones of limits.</summary>
@@ -240,9 +240,6 @@ internal sealed class RowBlock
 
     /// <summary>Whether some rows come from the joint's or coupling's own Prepare, one mechanism at a time.</summary>
     public bool IsAssembled => (Coupling != null && Coupled.Length == 0) || ScalarCount > 0 || Angular == AngularForm.Prepared;
-
-    /// <summary>Whether prepared rows are worth a second look at the end of the drift; a hinge's axis on the world stays.</summary>
-    public bool HasMovingRows => Angular == AngularForm.Prepared || Limits > 0 || Drives > 0;
 
     /// <summary>The block as it stands in lanes: without the rows of its limits, a hinge with one about its axis; a coupling of hinges with the blocks of these.</summary>
     /// <param name="blocks">Of its island.</param>
@@ -264,7 +261,7 @@ internal sealed class RowBlock
     {
         if (Bodies.Length != other.Bodies.Length || LinearMask != other.LinearMask || Angular != other.Angular || Watch != other.Watch || HasAxisRow != other.HasAxisRow || IsAxisDriven != other.IsAxisDriven
             || !HasSame(CouplingSides, other.CouplingSides) || !HasSame(Coupled, other.Coupled) || (Coupling is null) != (other.Coupling is null) || Drives != other.Drives || HasCone != other.HasCone || AngleLimits != other.AngleLimits
-            || HasDistance != other.HasDistance || HasMovingRows != other.HasMovingRows)
+            || HasDistance != other.HasDistance)
         {
             return false;
         }

@@ -22,7 +22,7 @@ internal enum RowKind : byte
     Limit,
 }
 
-/// <summary>Where on its piecewise-linear scalar row a row stands.</summary>
+/// <summary>Where on its piecewise-linear characteristic a row stands.</summary>
 internal enum RowState : byte
 {
     /// <summary>The impulse is fixed, at a bound or at 0.</summary>
@@ -46,9 +46,9 @@ internal enum ProjectedAs : byte
 }
 
 /// <summary>
-/// One row with a monotone piecewise-linear scalar row. Impulse p is what the drift gets of it.
+/// One row whose impulse is a monotone piecewise-linear function of its speed. Impulse p is what the drift gets of it.
 /// Spring: the force -k C + d (vT - v) is taken at the share Theta of the step, C = C0 + Theta h v, and its impulse
-/// l = h (d vT - k C0) - Gamma v, Gamma = h (d + Theta h k), is given by Theta before the drift and the rest after it:
+/// l = h (d vT - k C0) - G v, G = h (d + Theta h k) the <see cref="ImplicitDamping"/>, is given by Theta before the drift and the rest after it:
 /// Theta = 1/2 is the implicit midpoint rule, second order and without numerical damping; Theta = 1 is implicit Euler.
 /// </summary>
 internal struct ScalarRow
@@ -86,10 +86,10 @@ internal struct ScalarRow
     /// <summary>What the factored matrix has of it.</summary>
     public ProjectedAs ProjectedAs;
 
-    /// <summary>C at the start of the step.</summary>
+    /// <summary>C at the start of the step, m or rad.</summary>
     public double StartError;
 
-    /// <summary>C that a prescribed motion is to have at the end of the step.</summary>
+    /// <summary>C that a prescribed motion is to have at the end of the step, m or rad.</summary>
     public double EndError;
 
     /// <summary>
@@ -113,7 +113,7 @@ internal struct ScalarRow
     /// <summary>Whether a limit was let go in this drift, as its impulse drew.</summary>
     public bool HasDrawn;
 
-    /// <summary>Speed of the row at the start of the step; in an impact, before it.</summary>
+    /// <summary>Speed of the row at the start of the step, m/s or rad/s; in an impact, before it.</summary>
     public double StartSpeed;
 
     /// <summary>Whether the joints hold a drive without limit of force, alone or with other such drives: see <see cref="HeldDrives"/>.</summary>
@@ -149,10 +149,13 @@ internal struct ScalarRow
     /// <summary>Time since the joint left its limit, as far as it was in this part of a step; else infinite, s.</summary>
     public double Flight;
 
+    /// <summary>Share of the step at which a spring's force is taken, and of its impulse that acts before the drift: 1/2 to 1.</summary>
     public double Theta;
+
+    /// <summary>What a spring's impulse falls by for each unit of speed, kg or kg m^2.</summary>
     public double ImplicitDamping;
 
-    /// <summary>Impulse of a spring at v = 0.</summary>
+    /// <summary>Impulse of a spring at v = 0, N s or N m s.</summary>
     public double RestImpulse;
 
     /// <summary>By how much a spring that the step is too long to follow holds its speed at the drift's, see <see cref="StiffSpringCorrection"/>.</summary>
@@ -161,15 +164,15 @@ internal struct ScalarRow
     /// <summary>That speed, by the impulse that the spring gave at it; NaN of one at its limit.</summary>
     public double CorrectionSpeed;
 
-    /// <summary>Bounds of the whole step's impulse.</summary>
+    /// <summary>Bounds of the whole step's impulse, N s or N m s.</summary>
     public double Low;
     public double High;
 
-    /// <summary>Impulse before the drift, and after it.</summary>
+    /// <summary>Impulse before the drift, and after it, N s or N m s.</summary>
     public double ImpulseFirstHalf;
     public double ImpulseSecondHalf;
 
-    /// <summary>Change of First when it came to its bound, until the momenta have it.</summary>
+    /// <summary>Change of <see cref="ImpulseFirstHalf"/> when it came to its bound, until the momenta have it.</summary>
     public double PendingImpulse;
 
     /// <summary>Work of a spring without potential since the account was opened, J.</summary>
@@ -230,7 +233,7 @@ internal struct ScalarRow
 
     /// <summary>
     /// About where in the drift a limit that is passed at its end is reached, as a share of it: where the parabola through C and its rate at the start
-    /// and C at the end falls through 0; the middle of a drift at whose start nothing is known of it.
+    /// and C at the end falls through 0; where nothing is known of its start, as of a fall from rest at twice the depth, 1 / sqrt 2.
     /// </summary>
     /// <param name="h">Length of the drift, s.</param>
     public readonly double ReachedAt(double h)

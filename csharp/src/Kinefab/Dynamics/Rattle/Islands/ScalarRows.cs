@@ -24,8 +24,8 @@ internal sealed class ScalarRows
             _first[n] = next;
             for (int i = 0; i < block.ScalarCount; i++)
             {
-                int nodeRow = block.BilateralCount + i;
-                _rows[next++] = new ScalarRow { Block = n, BlockRow = nodeRow, Index = shape.Pattern.Rows[n] + nodeRow };
+                int blockRow = block.BilateralCount + i;
+                _rows[next++] = new ScalarRow { Block = n, BlockRow = blockRow, Index = shape.Pattern.Rows[n] + blockRow };
             }
         }
     }
@@ -99,9 +99,6 @@ internal sealed class ScalarRows
             }
         }
     }
-
-    /// <summary>Whether a block that has one scalar row has a motor, whose row about an axis that stays is the same wherever it is built.</summary>
-    public bool HasMotorAlone(int block) => _rows[_first[block]].FindKind(0) == RowKind.SpeedMotor;
 
     /// <summary>Forgets impulses and states.</summary>
     public void ClearHistory()

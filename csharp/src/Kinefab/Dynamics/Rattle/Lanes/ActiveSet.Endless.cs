@@ -12,6 +12,9 @@ internal sealed partial class ActiveSet<V>
     private const double MostByLevers = 30;
     private const double MostByGears = 1e3;
 
+    // By how much the drives of one joint's angles, whose axes are not at right angles, may work against each other.
+    private const double MostBySkew = 4;
+
     // Of a drive that nothing can follow, its speed is a millionth.
     private const int MostSlowdowns = 20;
     private const int Slowdown = 2;
@@ -43,8 +46,9 @@ internal sealed partial class ActiveSet<V>
 
     /// <summary>
     /// The most impulse that a drive can need in a part of a step, whatever way its island takes: to start, stop or turn round all bodies as one, which is
-    /// a matter of the whole step, and to hold out against springs, other drives and loads. Of a chain no more reaches it; levers and gears may multiply
-    /// it. What the bodies have beside the drive's own speed does not count: where a dead point throws them about, each step would throw them farther.
+    /// a matter of the whole step, by itself or as other drives ask for, and to hold out against springs, other drives, loads and what turns. Of a chain no
+    /// more reaches it; levers and gears may multiply it. In loops what the bodies have beside the speeds that are asked for does not count: where a dead
+    /// point throws them about, each step would throw them farther.
     /// </summary>
     /// <param name="drive">Its row.</param>
     /// <param name="h">Length of the part, s.</param>
@@ -53,19 +57,62 @@ internal sealed partial class ActiveSet<V>
         const double mostAcceleration = 1e3;
         bool isAngular = drive.Built.Has(RowFlags.Angular);
         double speed = Math.Abs(drive.AskedSpeed(h));
-        double inertia = MostInertia(drive, out double reach), load = 0;
+        double inertia = MostInertia(drive, out double reach), load = 0, weights = 0;
         Vector3d anchor = Anchor(drive);
+        FindOthers(drive, out double turning, out double moving);
+        double fastestTurn = turning + (isAngular ? speed : 0), fastest = moving + (isAngular ? 0 : speed);
         for (int body = 0; body < _batch.Shape.MovingBodies; body++)
         {
             int o = LaneRecords<V>.Body(body, 0);
             double own = Inverse(_batch.Bodies[o + BodyLanes.InverseMass]);
             double weight = isAngular ? own * Length(o + BodyLanes.EndX, anchor) : own;
+            weights += weight;
             load += weight * Length(o + BodyLanes.Acceleration) + (isAngular ? Length(o + BodyLanes.Torque) : 0);
+            fastestTurn = _batch.Shape.HasJointLoops ? fastestTurn : Math.Max(fastestTurn, Impulses<V>.AngularVelocity(_batch, body).Length);
+            fastest = _batch.Shape.HasJointLoops ? fastest : Math.Max(fastest, Length(o + BodyLanes.V));
         }
 
-        double start = Math.Max(0, Margin * inertia * (speed + Math.Abs(drive.StartSpeed)) - Math.Abs(_batch.Work.TotalImpulses[drive.Index]));
+        // Towards the axes about which it turns, and as it slides while it turns.
+        load += weights * fastestTurn * (fastestTurn * reach + 2 * fastest) + (isAngular ? inertia * fastestTurn * fastestTurn : 0);
+        double others = isAngular ? inertia * turning + weights * moving : inertia * (moving + turning * reach);
+        double start = Math.Max(0, Margin * (inertia * (speed + Math.Abs(drive.StartSpeed)) + others) - Math.Abs(_batch.Work.TotalImpulses[drive.Index]));
         double force = Margin * (load + Levers * Opposed(drive, h, speed, reach)) + inertia * mostAcceleration * Math.Sqrt(drive.Pace);
-        return ByGears(reach) * (start + force * h);
+        return ByGears(reach) * (isAngular && AreAskew(drive) ? MostBySkew : 1) * (start + force * h);
+    }
+
+    // Whether the joint has other angular drives without limit of force: its angles do not turn about axes at right angles, and what one asks for the others
+    // undo.
+    private bool AreAskew(in ScalarRow drive)
+    {
+        bool areAskew = false;
+        int first = _scalars.First(drive.Block);
+        for (int i = first; i < first + _batch.Shape.Blocks[drive.Block].ScalarCount; i++)
+        {
+            areAskew |= _rows[i].IsEndlessDrive && _rows[i].Built.Has(RowFlags.Angular) && _rows[i].Index != drive.Index;
+        }
+
+        return areAskew;
+    }
+
+    // How fast the other drives without limit of force and the kinematic bodies turn the island, rad/s, and move it, m/s: as they are asked to and as they do.
+    private void FindOthers(in ScalarRow drive, out double turning, out double moving)
+    {
+        turning = 0;
+        moving = 0;
+        for (int i = 0; i < _rows.Length; i++)
+        {
+            ref ScalarRow other = ref _rows[i];
+            double speed = other.IsEndlessDrive && !other.IsHeld && other.Index != drive.Index ? Math.Abs(other.Built.VelocityTarget) + Math.Abs(StartSpeed(other)) : 0;
+            turning += other.Built.Has(RowFlags.Angular) ? speed : 0;
+            moving += other.Built.Has(RowFlags.Angular) ? 0 : speed;
+        }
+
+        for (int body = _batch.Shape.MovingBodies; body < _batch.Shape.Bodies.Length; body++)
+        {
+            int o = LaneRecords<V>.Body(body, 0);
+            turning += _batch.Shape.IsStatic[body] ? 0 : Length(o + BodyLanes.W);
+            moving += _batch.Shape.IsStatic[body] ? 0 : Length(o + BodyLanes.V);
+        }
     }
 
     private double Levers => _batch.Shape.HasLoops ? MostByLevers : 1;

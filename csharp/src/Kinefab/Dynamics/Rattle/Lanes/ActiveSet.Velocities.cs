@@ -180,7 +180,7 @@ internal sealed partial class ActiveSet<V>
         return Math.Abs(asked - StartSpeed(scalar)) <= share * Math.Abs(asked) + tolerance;
     }
 
-    // A spring that answers holds the drift's speed. A drive that stalls is held at another speed than its own: in a blow it holds that. Newton's scalar row
+    // A spring that answers holds the drift's speed. A drive that stalls is held at another speed than its own: in a blow it holds that. Newton's law
     // of impact: the speed after a stop against the speed before the step, above the threshold alone.
     private static double TargetSpeed(in ScalarRow scalar)
     {

@@ -22,11 +22,6 @@ internal static class AssembledRows<V>
             return;
         }
 
-        if (!block.HasMovingRows)
-        {
-            return;
-        }
-
         ConstraintRow[] rows = batch.Work.Rows;
         int count = Prepare(batch, n, block, rows);
         var slots = new RowSlots(block);
@@ -53,7 +48,7 @@ internal static class AssembledRows<V>
         {
             BuildCoupling(batch, n, block);
         }
-        else if (block.HasMovingRows && block.Angular != AngularForm.Prepared)
+        else if (block.Angular != AngularForm.Prepared)
         {
             batch.Scalars!.AdoptEndRows(n);
         }

@@ -28,7 +28,7 @@ internal static class BilateralRows<V>
         }
     }
 
-    /// <summary>Places levers and axes and finds C of all rows but those with a scalar row.</summary>
+    /// <summary>Places levers and axes and finds C of all bilateral rows.</summary>
     public static void Evaluate(LaneRecords<V> batch)
     {
         Place(batch);

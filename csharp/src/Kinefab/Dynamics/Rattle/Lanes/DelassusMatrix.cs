@@ -16,9 +16,13 @@ namespace Kinefab.Dynamics.Rattle;
 internal static class DelassusMatrix<V>
     where V : struct, ILane<V>
 {
-    /// <summary>Share added to the diagonal for anchors, and for locked angles in RATTLE steps: of exact loops, and of loose ones.</summary>
+    // Share added to the diagonal for anchors.
     private const double LinearShare = 1e-6;
+
+    /// <summary>Share of what the largest moments answer that is added for locked angles in RATTLE steps.</summary>
     public const double AngularShare = 1e-4;
+
+    /// <summary>The same of loops that a file has rounded.</summary>
     public const double RoundedShare = 1e-3;
 
     private const int HingeRows = 5;

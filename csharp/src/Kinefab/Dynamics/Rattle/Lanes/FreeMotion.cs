@@ -18,6 +18,9 @@ internal static class FreeMotion<V>
     // Largest error of a quaternion's square.
     private const double MostStretch = 1e-10;
 
+    // Cosine of half the most that a body may turn in a drift, 1.5 rad: three times what StepLimit lets it turn by its speed at the start.
+    private const double LeastCosine = 0.7316888688738209;
+
     // Bodies of one island that turn side by side, and fewer of them for which it pays.
     private const int Together = 4;
     private const int LeastTogether = 3;
@@ -112,6 +115,31 @@ internal static class FreeMotion<V>
         }
 
         return true;
+    }
+
+    /// <summary>
+    /// Whether a body of a lane turned so far in the last drift that the rows of locked angles no longer tell which way they are off: they are 0 at half a
+    /// turn too.
+    /// </summary>
+    public static bool HasTurnedFar(LaneRecords<V> batch, int lane)
+    {
+        for (int body = 0; body < batch.Shape.MovingBodies; body++)
+        {
+            int o = LaneRecords<V>.Body(body, 0) + lane;
+            double cosine = 0;
+            for (int i = 0; i < 4; i++)
+            {
+                cosine += batch.Bodies[o + (BodyLanes.Q + i) * Lane<V>.Width] * batch.Bodies[o + (BodyLanes.EndQ + i) * Lane<V>.Width];
+            }
+
+            // Of half the turn.
+            if (!(Math.Abs(cosine) > LeastCosine))
+            {
+                return true;
+            }
+        }
+
+        return false;
     }
 
     [MethodImpl(MethodImplOptions.NoInlining)]

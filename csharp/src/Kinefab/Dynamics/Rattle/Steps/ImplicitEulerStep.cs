@@ -55,7 +55,7 @@ internal sealed class ImplicitEulerStep
         Array.Clear(batch.Work.PositionImpulses, 0, batch.Work.PositionImpulses.Length);
         scalars?.ClearFree();
         FreeMotion<ScalarLane>.DriftKinematic(batch, h);
-        int lawPasses = 0;
+        int searches = 0;
         double last = 0;
         bool isNear = false;
         for (int iteration = 0; iteration < MaxIterations; iteration++)
@@ -75,7 +75,7 @@ internal sealed class ImplicitEulerStep
             bool isClosed = ChordIteration<ScalarLane>.IsClosed(batch, 0, tolerance, iteration > 0);
             if (isClosed && unbalanced < tolerance)
             {
-                if (scalars == null || !scalars.UpdatePositions(lawPasses++, tolerance))
+                if (scalars == null || !scalars.UpdatePositions(searches++, tolerance))
                 {
                     return true;
                 }

@@ -22,7 +22,7 @@ internal static class RattleStep<V>
     /// <param name="h">Step, s.</param>
     /// <param name="tolerance">Largest C, metres or radians.</param>
     /// <param name="converged">Set for each lane.</param>
-    /// <param name="isEager">Rows with a scalar row keep to their bounds in every iteration instead of at its end alone: dearer, but
+    /// <param name="isEager">Scalar rows keep to their bounds in every iteration instead of at its end alone: dearer, but
     /// rows that contradict each other give way before the drift is led astray.</param>
     /// <param name="exact">Solves for each correction without the matrix's compliance, as long as it takes; null: by the factor alone.</param>
     public static void KickAndDrift(LaneBatch<V> batch, double h, double tolerance, bool[] converged, bool isEager = false, ConjugateGradient? exact = null)
@@ -53,7 +53,7 @@ internal static class RattleStep<V>
         }
 
         FreeMotion<V>.DriftKinematic(batch, h);
-        int lawPasses = 0;
+        int searches = 0;
         int restart = 0;
         for (int iteration = 0; ; iteration++)
         {
@@ -76,7 +76,7 @@ internal static class RattleStep<V>
                 isDone &= batch.Work.Active[lane] == 0;
             }
 
-            if (isDone && batch.ActiveSet != null && batch.ActiveSet.UpdatePositions(lawPasses++, tolerance))
+            if (isDone && batch.ActiveSet != null && batch.ActiveSet.UpdatePositions(searches++, tolerance))
             {
                 batch.Work.Active[0] = 1;
                 converged[0] = false;
@@ -130,7 +130,7 @@ internal static class RattleStep<V>
         }
     }
 
-    /// <summary>Reads the rows with a scalar row again at the pose where all rows were built, since targets and gains may have changed.</summary>
+    /// <summary>Reads the scalar rows again at the pose where all rows were built, since targets and gains may have changed.</summary>
     public static void ReloadState(LaneBatch<V> batch)
     {
         for (int n = 0; n < batch.Shape.Blocks.Length; n++)
@@ -154,7 +154,7 @@ internal static class RattleStep<V>
         }
     }
 
-    /// <summary>Total = First + Half in the active lanes.</summary>
+    /// <summary>Adds the impulses of the drift and of the projection to those of the whole step, in the active lanes.</summary>
     public static void Accumulate(LaneBatch<V> batch)
     {
         int w = Lane<V>.Width;

@@ -51,8 +51,17 @@ APART_ONCE = {
     2101210: (5, 5),  # five spins and an obstructed velocity: mixtures by a rule of few dimensions found three of them
     2203389: (6, 6),  # two branches that cross, where three mixtures happened to lie near one of them
     90882: (5, 5),  # obstructed velocities mixed with motions, which do not come back onto the joints in one go
+    8102201: (5, 5),  # five spins, of which one and a platform's turn obstruct each other by the fourth power of a way along both
 }
 """Mechanisms, by seed, that were once counted differently: mobility and idle freedoms."""
+
+FEWEST_ROWS_APART_ONCE = {
+    451735: (2, 0),  # two branches cross, of which a random step ends on the smaller one
+    8300590: (7, 7),  # ten parts of 22 freedoms, of which the fourth power of the way obstructs a platform's turn
+    9200780: (5, 1),  # motions end in a cusp, to one side of which no step closes
+    9200819: (0, 0),  # a rack of half a metre a degree hid that its fourth power obstructs a turn
+}
+"""The same of mechanisms whose closing joints keep the fewest rows."""
 
 BODIES_APART_ONCE = {
     13758: ("part3", 3, 3),  # 2e-4 beside the other five

@@ -1,6 +1,7 @@
 using System;
 using System.Collections.Generic;
 using System.Threading;
+using Kinefab.Numerics;
 
 namespace Kinefab.Kinematics;
 
@@ -94,17 +95,24 @@ internal sealed class FiniteMobility
     private TrialSteps Trials(VelocitySpace space, SecondOrder? left, MechanismState state) =>
         new(_newton, _closing, left is null ? space.Basis : left.Basis(), state, _cancellation);
 
-    // A step along a mixture of all allowed velocities, the same on every machine; undone when the joints do not close.
+    // A step along a mixture of all allowed velocities, the same on every machine; back along it when the joints do not close, as where the
+    // motions end in a cusp, and undone when they do not close there either.
     private void Walk(MechanismState state, VelocitySpace space, SecondOrder? left, int round)
     {
         _cancellation.ThrowIfCancellationRequested();
         double[] step = left is null ? space.Mixture(round, WalkLength) : left.Mixture(round, WalkLength);
         MechanismState before = state.Clone();
-        _newton.Motion.Start(state.Poses);
-        _newton.Motion.Move(state.Poses, step);
-        if (!_closing.Close(state))
+        for (int way = 0; way < 2; way++)
         {
+            _newton.Motion.Start(state.Poses);
+            _newton.Motion.Move(state.Poses, step);
+            if (_closing.Close(state))
+            {
+                return;
+            }
+
             state.CopyFrom(before);
+            DenseVector.Divide(step, -1);
         }
     }
 }

@@ -10,8 +10,9 @@ namespace Kinefab.Kinematics;
 /// </summary>
 internal sealed class FineClosing
 {
-    // Up to so many freedoms singular values are taken.
+    // Up to so many freedoms singular values are taken, or of so many bodies: as many as in Python.
     private const int Few = 20;
+    private const int FewBodies = 12;
 
     // Singular values below this share of the largest, or of a row's unit where that is larger, take no part in a step: where a joint holds
     // nothing of what the others leave, all of its rows are a rounding.
@@ -47,6 +48,7 @@ internal sealed class FineClosing
         _newton = newton;
         _before = new Pose[linkage.BodyCount];
         Closing = new double[newton.Motion.Linear.Length];
+        IsFew = Closing.Length <= Few || linkage.Tree.Order.Length <= FewBodies;
         Close(state);
         _goal = Math.Max(Rounding, 2 * Worst);
         newton.Accepted = Math.Max(newton.Accepted, 4 * Worst);
@@ -65,7 +67,7 @@ internal sealed class FineClosing
     public bool IsClosed => Worst <= (IsFew ? Stuck * _goal : _newton.Accepted);
 
     /// <summary>Whether the freedoms are few enough for singular values.</summary>
-    public bool IsFew => Closing.Length <= Few;
+    public bool IsFew { get; }
 
     /// <summary>Brings a state onto the joints as near as it goes; whether that may be a pose of them.</summary>
     public bool Close(MechanismState state)
@@ -103,6 +105,15 @@ internal sealed class FineClosing
             double now = _newton.Equations.Worst;
             if (now > Worse * Worst && share > LeastShare)
             {
+                // What a step along the weak rows bends, the strong ones make up for, as far as they can.
+                double[] straight = Step(there, 1, Curvature * DenseVector.Dot(step, step));
+                _newton.Motion.Move(state.Poses, straight);
+                (there, now) = (_newton.Rows(state), _newton.Equations.Worst);
+                DenseVector.Add(step, 1, straight);
+            }
+
+            if (now > Worse * Worst && share > LeastShare)
+            {
                 Array.Copy(_before, state.Poses, _before.Length);
                 _newton.Motion.Start(state.Poses);
                 share /= 2;
@@ -119,10 +130,11 @@ internal sealed class FineClosing
         _newton.ReadValues(state);
     }
 
-    // A share of the least step after which the rows miss 0 by no more than its own curvature may make of it, no longer than the largest.
+    // A share of the least step after which the rows miss 0 by no more than its own curvature may make of it, no longer than the largest; it
+    // ends before the weak rows that would make it longer than it may be.
     // The weakest rows ask for the longest steps, and nothing of them is known before the others are closed: where o o = 0 and o s = 0, a
     // step that obeyed both would halve the motion s each time that it halves o.
-    private double[] Step(PackedRows rows, double share)
+    private double[] Step(PackedRows rows, double share, double longest = double.PositiveInfinity)
     {
         double[,] matrix = rows.Matrix(Closing.Length);
         var errors = new double[rows.Count];
@@ -146,6 +158,11 @@ internal sealed class FineClosing
         {
             double size = along[k] / values.Values[k];
             squares += size * size;
+            if (squares > longest * longest)
+            {
+                break;
+            }
+
             left -= along[k] * along[k];
             for (int i = 0; i < step.Length; i++)
             {

@@ -19,6 +19,9 @@ internal sealed class TrialSteps
     // What is left of an obstructed velocity is the root of the closing error, this much at most, whatever the way.
     private const double LeftOfObstructed = 5e-5;
 
+    // Share of a velocity up to which nothing turns in it.
+    private const double Still = 1e-6;
+
     // Times that what is left of velocities is tried, and the mixtures of motions that are.
     private const int Rounds = 3;
     private const int Mixtures = 3;
@@ -184,14 +187,29 @@ internal sealed class TrialSteps
     private double[] Left(double[] velocity, double length)
     {
         _moved.CopyFrom(_from);
-        var left = new double[velocity.Length];
-        DenseVector.Add(left, length, velocity);
         _newton.Motion.Start(_moved.Poses);
+        double way = Way(velocity, length);
+        var left = new double[velocity.Length];
+        DenseVector.Add(left, way, velocity);
         _newton.Motion.Move(_moved.Poses, left);
         _closing.Close(_moved);
         DenseVector.Add(left, 1, _closing.Closing);
-        DenseVector.Divide(left, length);
+        DenseVector.Divide(left, way);
         return left;
+    }
+
+    // How far a step of a length goes: until what turns has gone as far as all does, or to the longest. Beside the slide of a steep rack a turn
+    // is little, and what its fourth power obstructs a rounding.
+    private double Way(double[] velocity, double length)
+    {
+        double turn = 0;
+        for (int i = 0; i < velocity.Length; i++)
+        {
+            turn = Math.Max(turn, _newton.Motion.Angular[i] == Vector3d.Zero ? 0 : Math.Abs(velocity[i]));
+        }
+
+        double largest = DenseVector.Largest(velocity);
+        return turn > Still * largest ? Math.Max(length, Math.Min(length * largest / turn, Lengths[Lengths.Length - 1])) : length;
     }
 
     // The left singular vectors of the first singular values of columns.

@@ -219,6 +219,14 @@ class Solver:
             values = system.linearise(trial)
             now = self.worst(values[0])
             worse = open_ & (now > 2.0 * worst) & (damp > 1e-3)
+            if self.cautious and worse.any():
+                # what a step along the weak rows bends, the strong ones make up for, as far as they can
+                longest = CURVATURE * np.bincount(self.part[bodies], (twists**2).sum(axis=1), self.parts)
+                bodies, twists, _ = self._steps(worse, *values, np.ones(self.parts), longest)
+                trial = system.moved(trial, bodies, twists)
+                values = system.linearise(trial)
+                now = self.worst(values[0])
+                worse &= now > 2.0 * worst
             if worse.any():
                 # halve the step of those parts and leave them where they are; the others go on
                 back = np.flatnonzero(np.isin(self.part, np.flatnonzero(worse)))
@@ -235,9 +243,11 @@ class Solver:
         return state, worst
 
     def _steps(
-        self, open_: BoolArray, residual: Array, block_a: Array, block_b: Array, damp: Array
+        self, open_: BoolArray, residual: Array, block_a: Array, block_b: Array, damp: Array, longest: Array | None = None
     ) -> tuple[IntArray, Array, BoolArray]:
-        """Bodies and their twists, and the parts, shape (parts,), whose step was cut to the largest."""
+        """Bodies and their twists, and the parts, shape (parts,), whose step was cut to the largest.
+
+        longest: of each part's cautious step, see there."""
         bodies: list[IntArray] = []
         twists: list[Array] = []
         short = np.zeros(self.parts, dtype=bool)
@@ -253,8 +263,11 @@ class Solver:
                 jacobian = self.jacobians(group, block_a, block_b)[take]
                 # a steep coupling's row would hide what the others tell beside it
                 size = np.maximum(1.0, np.linalg.norm(jacobian, axis=2))
-                step = cautious_step if self.cautious and jacobian.shape[2] <= FEW else minimum_norm
-                step = -step(jacobian / size[..., None], residual[group.rows[take]] / size)
+                unit, errors = jacobian / size[..., None], residual[group.rows[take]] / size
+                if self.cautious and jacobian.shape[2] <= FEW:
+                    step = -cautious_step(unit, errors, None if longest is None else longest[group.members[take]])
+                else:
+                    step = -minimum_norm(unit, errors)
             step = step.reshape(len(step), -1, 6) * damp[group.members[take]][:, None, None]
             largest = np.abs(step).max(axis=(1, 2), initial=0.0)
             step *= np.minimum(1.0, LARGEST_STEP / np.maximum(largest, 1e-300))[:, None, None]
@@ -286,8 +299,10 @@ def minimum_norm(jacobian: Array, residual: Array) -> Array:
     return np.einsum("mkn,mk->mn", vt, inverse * np.einsum("mrk,mr->mk", u, residual))
 
 
-def cautious_step(jacobian: Array, residual: Array) -> Array:
+def cautious_step(jacobian: Array, residual: Array, longest: Array | None = None) -> Array:
     """As ``minimum_norm``, but only as long as it has to be for the residual to become what the step's own curvature may leave.
+
+    longest: shape (m,), that each may be; it ends before the direction that makes it longer.
 
     The weakest rows ask for the longest steps, and nothing of them is known before the others are closed: where o o = 0 and
     o s = 0, a step that obeyed both would halve the motion s each time that it halves o.
@@ -296,8 +311,11 @@ def cautious_step(jacobian: Array, residual: Array) -> Array:
     along = np.einsum("mrk,mr->mk", u, residual) * (s > FINE_CUT * s[:, :1])
     shares = np.divide(along, s, out=np.zeros_like(s), where=along != 0.0)
     left = np.cumsum(along[:, ::-1] ** 2, axis=1)[:, ::-1]  # before each direction, from the strongest on
-    length = np.concatenate([np.zeros((len(s), 1)), np.cumsum(shares**2, axis=1)[:, :-1]], axis=1)
-    return np.einsum("mkn,mk->mn", vt, shares * (left > (CURVATURE * length) ** 2))
+    length = np.cumsum(shares**2, axis=1)
+    kept = left > (CURVATURE * np.concatenate([np.zeros((len(s), 1)), length[:, :-1]], axis=1)) ** 2
+    if longest is not None:
+        kept &= length <= longest[:, None] ** 2
+    return np.einsum("mkn,mk->mn", vt, shares * kept)
 
 
 def _positions(part: IntArray, count: IntArray) -> tuple[IntArray, IntArray, IntArray]:

@@ -18,7 +18,7 @@ from ..equations.system import State
 from .branches import NOISY_GAP, held_there, largest_branch, mixtures_move
 from .first_order import BlockFreedom, block_freedoms
 from .noise import moves_up_to_noise
-from .probes import OPEN, STEP, WHOLE, floor_of, kept_of, left_of, random_direction, trial
+from .probes import OPEN, STEP, TELLING, WHOLE, floor_of, kept_of, left_of, random_direction, trial
 from .second_order import second_order
 from .stacks import alike
 
@@ -44,9 +44,6 @@ MOST_FURTHER = 5
 """Such steps, while what is left of some velocity is in doubt."""
 PROBES = (STEP, 1e-2, 0.2)
 """Sizes of the trial steps of a singular part, each where the one before does not tell."""
-TELLING = 0.125
-"""Share of a step whose fourth power is no less open than the poses there, so that the step tells: what the fourth power of the
-way obstructs keeps the fourth root of the closing error, 1e-3 to 1e-2 where rows that nearly repeat each other hold up the closing."""
 BESIDE = 10.0
 """Times the error asked for up to which a trial step came back onto the rows."""
 MOST_FORMS = 1_000_000
@@ -135,7 +132,7 @@ def _changed(directions: Mapping[int, Array], moved: Mapping[int, Array], most: 
 def displaced(solver: Solver, first_order: Mapping[int, BlockFreedom], start: State) -> dict[int, Array]:
     """Displacements over STEP of some parts' bodies after a random small motion, by part, shape (6 n,) each."""
     directions = {p: random_direction(f.basis, np.random.default_rng(11)) for p, f in first_order.items()}
-    return trial(solver, first_order, start, directions)[0] if directions else {}
+    return trial(solver, first_order, start, directions, furthest=STEP)[0] if directions else {}
 
 
 def stepped(

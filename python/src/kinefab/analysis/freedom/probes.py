@@ -14,6 +14,10 @@ from .first_order import BlockFreedom
 
 STEP = 1e-3
 """Size of a trial step, radians or fractions of the length."""
+FURTHEST = 0.2
+"""Size of the largest."""
+STILL = 1e-6
+"""Share of a direction up to which nothing turns in it."""
 WHOLE = 0.9
 """Share above which nothing is in doubt: a motion keeps all of itself, but for its curvature."""
 HIDDEN = 1e-6
@@ -24,6 +28,9 @@ OPEN = 1e4
 """Times the error asked for beyond which a pose that was to be closed got stuck: it is none of the mechanism's."""
 SQUARE = 1e-2
 """Share of a trial step whose square is no more open than that: it hides no more of what is obstructed."""
+TELLING = 0.125
+"""Share of a step whose fourth power is no less open than the poses there, so that the step tells: what the fourth power of the
+way obstructs keeps the fourth root of the closing error, 1e-3 to 1e-2 where rows that nearly repeat each other hold up the closing."""
 
 
 def random_direction(basis: Array, draw: np.random.Generator) -> Array:
@@ -38,7 +45,7 @@ def floor_of(solver: Solver, state: State) -> Array:
 
 def _most_open(floor: Array, step: float) -> Array:
     """Residual of each part beyond which a trial step did not come back onto the rows."""
-    return np.maximum(OPEN * floor, (SQUARE * step) ** 2)
+    return np.maximum(OPEN * floor, min((SQUARE * step) ** 2, (TELLING * step) ** 4))
 
 
 def trial(
@@ -50,23 +57,33 @@ def trial(
     floor: Array | None = None,
     *,
     keep: bool = False,
+    furthest: float = FURTHEST,
 ) -> tuple[dict[int, Array], Array, State]:
-    """Displacements (6 n of each part), over ``step``, after a step along each direction and back onto the rows; the residual
+    """Displacements (6 n of each part), over their way, after a step along each direction and back onto the rows; the residual
     of each part there; and the pose.  What did not come back onto them has kept nothing, unless told to ``keep``.
 
-    floor: see ``floor_of``, where it is known."""
+    floor: see ``floor_of``, where it is known.  furthest: that a step goes beside a steep rack, see ``_way``."""
     bodies = np.concatenate([first_order[p].bodies for p in directions])
-    twists = step * np.concatenate([d.reshape(-1, 6) for d in directions.values()])
+    ways = {part: _way(d, step, furthest) for part, d in directions.items()}
+    twists = np.concatenate([ways[part] * d.reshape(-1, 6) for part, d in directions.items()])
     active = np.zeros(solver.parts, dtype=bool)
     active[list(directions)] = True
     state = solver.system.moved(start, bodies, twists)
     floor = floor_of(solver, start) if floor is None else floor
     state, left = solver.project(state, active, floor)
     stuck = left > _most_open(floor, step)
-    moved = _displacement(solver, bodies, start, state) / step
+    moved = _displacement(solver, bodies, start, state)
     ends: list[int] = np.cumsum([6 * len(first_order[p].bodies) for p in directions]).tolist()
     own = zip(directions, [0, *ends], ends)
-    return {part: moved[at:end] * (keep or not stuck[part]) for part, at, end in own}, left, state
+    return {part: moved[at:end] / ways[part] * (keep or not stuck[part]) for part, at, end in own}, left, state
+
+
+def _way(direction: Array, step: float, furthest: float) -> float:
+    """How far a trial step goes along a direction whose largest entry is 1: until what turns has gone ``step``, or to ``furthest``.
+
+    Beside the slide of a steep rack a turn is little, and what its fourth power obstructs a rounding."""
+    turn = float(np.abs(direction.reshape(-1, 6)[:, 3:]).max())
+    return max(step, min(step / turn, furthest)) if turn > STILL else step
 
 
 def _displacement(solver: Solver, bodies: IntArray, start: State, end: State) -> Array:

@@ -49,7 +49,7 @@ FLOORS: dict[str, list[set[str]]] = {
     ],
     "unity": [
         {"frames", "scene", "definitions", "container"},
-        {"bodies", "assets", "joints", "constraints", "mobility", "placing", "apart"},
+        {"bodies", "assets", "joints", "constraints", "mobility", "placing", "apart", "rules"},
         {"as_stated"},
         {"mapping"},
         {"contact"},

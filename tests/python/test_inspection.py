@@ -16,12 +16,26 @@ from kinefab.views.overview import overview, picture
 def test_number_that_is_not_finite_is_a_finding(tmp_path, number, show):
     """Python's JSON would let them pass, and write them on into what is no JSON."""
     path = tmp_path / "bad.kinefab"
-    scene = {"format": "kinefab.scene", "version": "1.0", "gameObjects": [], "extras": "MARK"}
+    scene = {"format": "kinefab.scene", "version": "1.0", "gameObjects": [], "extras": {"own": "MARK"}}
     path.write_text(json.dumps(scene).replace('"MARK"', number), encoding="utf-8")
-    with pytest.raises(
-        kinefab.KinefabError, match=f"SCENE_UNREADABLE: The scene cannot be read: {number} is not a finite"
-    ):
+    with pytest.raises(kinefab.KinefabError) as raised:
         show(path)
+    (found,) = raised.value.diagnostics
+    assert found.code == ("NUMBER_NOT_FINITE" if number == "1e999" else "JSON_SYNTAX")
+    assert found.where == f"{path}#/extras/own"
+
+
+def test_what_is_no_file_is_a_finding(tmp_path):
+    (tmp_path / "folder.kinefab").mkdir()
+    with pytest.raises(kinefab.KinefabError, match="SCENE_UNREADABLE"):
+        read_scene_file(tmp_path / "folder.kinefab")
+
+
+BODY = {"type": "Rigidbody"}
+
+
+def part(*components):
+    return {"id": "a", "name": "a", "components": [BODY, *components]}
 
 
 @pytest.mark.parametrize("index", [-1, 1, True, 0.5, "a"])
@@ -29,13 +43,13 @@ def test_number_that_is_not_finite_is_a_finding(tmp_path, number, show):
     "fields, place",
     [
         ({"gameObjects": [{"id": "a", "name": "a", "parent": "MARK"}]}, "gameObjects/0/parent"),
-        ({"gameObjects": [{"components": [{"type": "HingeJoint", "connectedBody": "MARK"}]}]},
-         "gameObjects/0/components/0/connectedBody"),
-        ({"gameObjects": [{"components": [{"type": "MeshFilter", "mesh": "MARK"}]}], "meshes": [{}]},
-         "gameObjects/0/components/0/mesh"),
-        ({"gameObjects": [{"components": [{"type": "MeshRenderer", "materials": ["MARK"]}]}], "materials": [{}]},
-         "gameObjects/0/components/0/materials/0"),
-        ({"meshes": [{"indices": {"buffer": "MARK"}}], "buffers": [{}]}, "meshes/0/indices/buffer"),
+        ({"gameObjects": [part({"type": "HingeJoint", "connectedBody": "MARK"})]},
+         "gameObjects/0/components/1/connectedBody"),
+        ({"gameObjects": [part({"type": "MeshFilter", "mesh": "MARK"})]}, "gameObjects/0/components/1/mesh"),
+        ({"gameObjects": [part({"type": "MeshRenderer", "materials": ["MARK"]})], "materials": [{"name": "m"}]},
+         "gameObjects/0/components/1/materials/0"),
+        ({"gameObjects": [], "materials": [{"name": "m", "colorTexture": {"image": "MARK"}}]},
+         "materials/0/colorTexture/image"),
     ],
 )  # fmt: skip
 def test_index_that_leads_nowhere_is_a_finding(tmp_path, fields, place, index):
@@ -46,7 +60,8 @@ def test_index_that_leads_nowhere_is_a_finding(tmp_path, fields, place, index):
     with pytest.raises(kinefab.KinefabError) as raised:
         read_scene_file(path)
     (found,) = raised.value.diagnostics
-    assert found.code == ("PARENT_NOT_EARLIER" if place.endswith("parent") else "REFERENCE_UNRESOLVED")
+    leads_nowhere = "PARENT_NOT_EARLIER" if place.endswith("parent") else "REFERENCE_UNRESOLVED"
+    assert found.code == (leads_nowhere if type(index) is int else "TYPE_MISMATCH")
     assert found.where == f"{path}#/{place}"
 
 

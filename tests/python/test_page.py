@@ -123,10 +123,10 @@ def test_a_capsule_lies_along_its_direction(tmp_path, direction):
 
 
 BROKEN = {
-    "no JSON": "{",
-    "another format": "{}",
-    "no objects": '{"format": "kinefab.scene", "version": "1.0"}',
-    "a wrong joint": json.dumps(
+    "JSON_SYNTAX": "{",
+    "FORMAT_UNKNOWN": '{"format": "another"}',
+    "FIELD_MISSING": '{"format": "kinefab.scene", "version": "1.0"}',
+    "JOINT_AXIS_ZERO": json.dumps(
         {
             "format": "kinefab.scene",
             "version": "1.0",
@@ -139,7 +139,7 @@ BROKEN = {
             ],
         }
     ),
-    "a wrong motion": json.dumps(
+    "VALUE_NOT_ALLOWED": json.dumps(
         {
             "format": "kinefab.scene",
             "version": "1.0",
@@ -158,13 +158,13 @@ BROKEN = {
 }
 
 
-@pytest.mark.parametrize("text", BROKEN.values(), ids=BROKEN)
-def test_a_broken_scene_is_refused_in_a_sentence(text, tmp_path):
+@pytest.mark.parametrize("code, text", BROKEN.items(), ids=BROKEN)
+def test_a_broken_scene_is_refused_in_a_sentence(code, text, tmp_path):
     path, page = tmp_path / "broken.kinefab", tmp_path / "page.html"
     path.write_text(text, "utf-8")
     page.write_text("old", "utf-8")
     done = run("view", path, "-o", page)
-    assert done.returncode == 1 and "SCENE_UNREADABLE" in done.stderr and "Traceback" not in done.stderr
+    assert done.returncode == 1 and code in done.stderr and "Traceback" not in done.stderr
     assert page.read_text("utf-8") == "old"
 
 

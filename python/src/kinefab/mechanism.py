@@ -17,7 +17,7 @@ from .diagnostics import Report
 from .model import Scene
 from .rigid import rigid_groups
 from .unity.back.restored import restored
-from .unity.back.scene_file import read_scene_file
+from .unity.back.scene_file import read_scene
 
 __all__ = ["Branching", "Coordinate", "Mechanism", "Stop", "Trajectory", "mechanism_of", "motion"]
 
@@ -42,7 +42,7 @@ def motion(source: str | Path | Scene) -> Mechanism:
     if isinstance(source, Scene):
         scene = source
     elif Path(source).suffix.lower() == ".kinefab":
-        scene = restored(read_scene_file(Path(source))).scene
+        scene = restored(read_scene(Path(source))[0]).scene
     else:
         from .sources import read
 

@@ -23,7 +23,7 @@ from .pipeline import export, mates_of
 from .replacing import why_unwritable, write_whole
 from .spatial import Array, Pose
 from .unity.back.restored import Restored, restored
-from .unity.back.scene_file import read_buffers, read_scene_file, unsound_as_finding
+from .unity.back.scene_file import read_scene, unsound_as_finding
 from .unity.mapping import GROUND_ID
 from .views.extent import ends_in_sight, span_of
 from .views.page.blob import Blob
@@ -113,15 +113,13 @@ def read_document(
     found: takes what that found.
     """
     if not isinstance(source, Scene) and is_written(source):
-        document = read_scene_file(Path(source))
-        return document, read_buffers(Path(source), document)
+        return read_scene(Path(source))
     with tempfile.TemporaryDirectory() as folder:
         path = Path(folder) / "scene.kinefab"
         result = export(source, path, options)
         if found is not None:
             found.extend(result.report)
-        document = read_scene_file(path)
-        return document, read_buffers(path, document)
+        return read_scene(path)
 
 
 def title_of(document: Entry, source: str | Path | Scene) -> str:

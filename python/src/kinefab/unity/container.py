@@ -24,6 +24,14 @@ class Damaged(ValueError):
     """Why a container cannot be read."""
 
 
+class OtherVersion(Damaged):
+    """It is of a version that is not known here."""
+
+    def __init__(self, version: int):
+        super().__init__(f"its container has version {version}, not {VERSION}")
+        self.version = version
+
+
 def is_container(content: bytes) -> bool:
     """Whether a file is one, by its first bytes."""
     return content[: len(MAGIC)] == MAGIC
@@ -35,7 +43,7 @@ def chunks_of(content: bytes) -> tuple[memoryview, memoryview | None]:
         raise Damaged("its container ends in the header")
     _, version, length = _HEADER.unpack_from(content)
     if version != VERSION:
-        raise Damaged(f"its container has version {version}, not {VERSION}")
+        raise OtherVersion(version)
     if length != len(content):
         raise Damaged(f"its container states {length} bytes and has {len(content)}")
     found: dict[bytes, memoryview] = {}

@@ -39,9 +39,13 @@ class Property:
 
 
 @cache
+def scene_schema() -> Mapping[str, Any]:
+    """Of a scene, whole."""
+    return json.loads((schema_directory() / "scene.schema.json").read_text(encoding="utf-8"))
+
+
 def definitions() -> Mapping[str, Any]:
-    schema = json.loads((schema_directory() / "scene.schema.json").read_text(encoding="utf-8"))
-    return schema["$defs"]
+    return scene_schema()["$defs"]
 
 
 @cache

@@ -8,21 +8,21 @@ from pathlib import Path
 from typing import Any
 
 from ..diagnostics import printable
-from ..unity.back.scene_file import read_buffers, read_scene_file, unsound_as_finding
+from ..unity.back.scene_file import read_scene, unsound_as_finding
 
 
 def picture(path: Path) -> str:
     """A scene file as an SVG.  Raises KinefabError when it or its buffer cannot be read."""
     from .picture import draw
 
-    scene = read_scene_file(path)
+    scene, buffers = read_scene(path)
     with unsound_as_finding(path):
-        return draw(scene, read_buffers(path, scene), path.name.split(".")[0])
+        return draw(scene, buffers, path.name.split(".")[0])
 
 
 def overview(path: Path, as_json: bool) -> str:
     """What is in a scene file, for people or as JSON.  Raises KinefabError when it cannot be read."""
-    scene = read_scene_file(path)
+    scene, _ = read_scene(path)
     with unsound_as_finding(path):
         description = describe(scene)
         text = json.dumps(description, indent=2, ensure_ascii=False) if as_json else render(description)

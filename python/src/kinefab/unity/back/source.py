@@ -43,7 +43,7 @@ from ..scene import ArticulationBody, Collider, GameObject, Material, MeshFilter
 from .extras import Way, extras_in
 from .pairs import pairs_apart, pairs_colliding
 from .restored import restored
-from .scene_file import read_buffers, read_scene_file, unsound_as_finding
+from .scene_file import read_scene, unsound_as_finding
 from .shapes import shape_of
 from .stated.choices import choice_of, still_chosen
 from .stated.joints import WrittenJoints
@@ -105,9 +105,9 @@ def read(path: Path, report: Report, request: object) -> WrittenScene:
 
     Raises KinefabError where the file or its buffer cannot be read.
     """
-    document = read_scene_file(path)
+    document, buffers = read_scene(path)
     with unsound_as_finding(path):
-        scene = unity_scene(document, read_buffers(path, document), report)
+        scene = unity_scene(document, buffers, report)
         made = _Nodes(document, scene).scene()
     made.path, made.extras_at = path.name, dict(extras_in(document))
     for entry in document.get("report", ()):

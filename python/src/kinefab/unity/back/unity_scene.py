@@ -27,7 +27,6 @@ from ..scene import (
     Transform,
     UnityScene,
 )
-from .demanded import demand_sound
 from .looks import material
 from .nouns import COMPONENTS, component, noun, tell, told
 from .terms import terms_of
@@ -59,8 +58,6 @@ def _mesh(entry: Entry, buffers: Sequence[bytes]) -> Mesh:
     count = int(entry["vertexCount"])
     submeshes = tuple(int(part["indexCount"]) // 3 for part in entry["submeshes"])
     indices = _values(entry["indices"], buffers, _WIDTHS[entry["indexFormat"]], 3 * sum(submeshes))
-    if len(indices) and int(indices.max()) >= count:
-        raise ValueError("an index past the last vertex")
 
     def floats(name: str, width: int) -> Any:
         place = entry.get(name)
@@ -82,10 +79,7 @@ def _mesh(entry: Entry, buffers: Sequence[bytes]) -> Mesh:
 
 
 def _values(place: Entry, buffers: Sequence[bytes], kind: str, count: int) -> Any:
-    offset = int(place["offset"])
-    if offset < 0:
-        raise ValueError("an accessor before its buffer")
-    return np.frombuffer(buffers[int(place["buffer"])], kind, count, offset)
+    return np.frombuffer(buffers[int(place["buffer"])], kind, count, int(place["offset"]))
 
 
 def unity_scene(document: Entry, buffers: Sequence[bytes], report: Report) -> UnityScene:
@@ -95,7 +89,7 @@ def unity_scene(document: Entry, buffers: Sequence[bytes], report: Report) -> Un
     """
     objects = [_game_object(entry, report) for entry in document["gameObjects"]]
     analysis = document.get("analysis")
-    found = UnityScene(
+    return UnityScene(
         source=told(Source, document.get("source", {}), "source", report),
         physics=told(Physics, document.get("physics", {}), "physics", report),
         gameObjects=tuple(objects),
@@ -116,8 +110,6 @@ def unity_scene(document: Entry, buffers: Sequence[bytes], report: Report) -> Un
         analysis=None if analysis is None else noun(Mobility, analysis),
         extras=document.get("extras", {}),
     )
-    demand_sound(found)
-    return found
 
 
 def _game_object(entry: Entry, report: Report) -> GameObject:

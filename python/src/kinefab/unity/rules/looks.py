@@ -1,0 +1,34 @@
+"""Materials and their textures, and images."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from .findings import Entry, Findings
+
+TEXTURES = (
+    "colorTexture",
+    "normalTexture",
+    "metallicRoughnessTexture",
+    "occlusionTexture",
+    "emissionTexture",
+)
+BEGINNINGS = {"image/png": b"\x89PNG\r\n\x1a\n", "image/jpeg": b"\xff\xd8\xff"}
+
+
+def check_materials(materials: Sequence[Entry], images: int, found: Findings) -> None:
+    for index, material in enumerate(materials):
+        for channel, value in enumerate(material.get("emission", ())):
+            if value < 0:
+                at = f"/materials/{index}/emission/{channel}"
+                found.add("NUMBER_OUT_OF_RANGE", at, value=value, range="0 or above")
+        for name in TEXTURES:
+            if name in material:
+                found.reference(material[name]["image"], "images", images, f"/materials/{index}/{name}/image")
+
+
+def check_image(image: Entry, content: bytes, at: str, found: Findings) -> None:
+    """That it begins as its kind does; it is not decoded.  content: of its file."""
+    kind: str = image["mediaType"]
+    if not content.startswith(BEGINNINGS.get(kind, b"")):
+        found.add("IMAGE_NOT_OF_KIND", f"{at}/data", mediaType=kind)

@@ -19,10 +19,10 @@ from kinefab import sources
 from kinefab.bundling.checking import check
 from kinefab.cli import app
 from kinefab.diagnostics import KinefabError, Report, schema_directory
-from kinefab.model import JointKind
+from kinefab.model import Dynamics, JointKind, Node, Scene
 from kinefab.options import ExportOptions
-from kinefab.pipeline import prepared
-from source_bundles import bundle, codes, part, read
+from kinefab.pipeline import analysed, prepared
+from source_bundles import bundle, codes, frame, part, read
 from typer.testing import CliRunner
 
 ROOT = Path(__file__).parents[2]
@@ -44,7 +44,8 @@ def by_schema(values: object) -> list:
 
 
 def test_init_writes_a_bundle_that_exports(tmp_path):
-    """Valid by the schema, with the one remark that mesh files state no density; a 10 x 20 x 30 mm box with Z up is 10 x 30 x 20 mm with Y up."""
+    """Valid by the schema, with the remarks that mesh files state no density and that nothing is joined yet; a 10 x 20 x 30 mm box
+    with Z up is 10 x 30 x 20 mm with Y up."""
     folder = tmp_path / "my parts"
     box(folder / "Base.stl", 10, 20, 30)
     box(folder / "Ärm.obj", 1, 2, 3)
@@ -54,7 +55,7 @@ def test_init_writes_a_bundle_that_exports(tmp_path):
     values = json.loads(target.read_text(encoding="utf-8"))
     assert by_schema(values) == []
     assert [c["id"] for c in values["components"]] == ["Base", "Ärm"]
-    assert [d.code for d in check(target)[0].diagnostics] == ["DENSITY_ASSUMED"]
+    assert [d.code for d in check(target)[0].diagnostics] == ["DENSITY_ASSUMED", "NOTHING_JOINED"]
     told = run("bundle", "check", target).stdout
     assert "2 parts, none of them grounded; 0 joints; mobility 12." in told
     meshes = prepared(target, ExportOptions(), Report()).meshes
@@ -318,6 +319,42 @@ def test_a_wrong_field_does_not_hide_what_the_analysis_finds(tmp_path):
     values["meta"]["units"]["length"] = "furlong"  # then no length says anything
     path.write_text(json.dumps(values), encoding="utf-8")
     assert "CONSTRAINTS_CONTRADICT" not in codes(check(path)[0])
+
+
+def unjoined(path: Path, values: object) -> list[str]:
+    """What ``bundle check`` says of nothing being joined, which ``export`` says too."""
+    path.write_text(json.dumps(values), encoding="utf-8")
+    checked = [d.message for d in check(path)[0].diagnostics if d.code == "NOTHING_JOINED"]
+    exported = kinefab.export(path, path.with_suffix(".kinefab")).report.diagnostics
+    assert checked == [d.message for d in exported if d.code == "NOTHING_JOINED"]
+    return checked
+
+
+def test_an_assembly_in_which_nothing_is_joined_is_told_of_once(tmp_path):
+    """In Unity all of it falls, and no file says so."""
+    path = tmp_path / "case.bundle.json"
+    parts = [part(name) for name in ("Base", "Arm", "Tip", "Cap", "Nut")]
+    (told,) = unjoined(path, bundle(*parts))
+    assert "5 parts" in told and "Base, Arm, Tip and 2 more" in told
+
+
+def test_loose_parts_that_are_meant_are_not_told_of(tmp_path):
+    """One part alone; what lies on a floor, or beside a mechanism; what is fixed to each other, or led by scripts."""
+    path = tmp_path / "case.bundle.json"
+    parts = part("Base"), part("Arm")
+    at = frame([0, 0, 0], [0, 0, 1])
+    sides = {"a": "Base", "b": "Arm", "frameA": at, "frameB": at}
+    hinge, weld = ({"id": "J", "type": kind, **sides} for kind in ("revolute", "rigid"))
+    assert unjoined(path, bundle(part("Base"))) == []
+    assert unjoined(path, bundle(part("Floor", grounded=True), *parts)) == []
+    assert unjoined(path, bundle(*parts, part("Loose"), joints=[hinge])) == []
+    assert unjoined(path, bundle(*parts, joints=[weld])) == []
+    led, own = Node("a", "a", dynamics=Dynamics(kinematic=True)), Node("b", "b")
+    asked = Report()  # a file of shapes, of which it was told already that nothing holds its parts
+    asked.add("MATES_NOT_ASKED", count=2)
+    for scene, report in ((Scene([led, own]), Report()), (Scene([own, Node("c", "c")]), asked)):
+        analysed(scene, ExportOptions(), report)
+        assert "NOTHING_JOINED" not in codes(report)
 
 
 def test_what_is_left_of_a_damaged_bundle_is_checked_without_a_crash(tmp_path):

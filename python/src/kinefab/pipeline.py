@@ -19,7 +19,7 @@ from .analysis.findings.summary import scene_entry
 from .analysis.joints.dof_records import joints_of_dof_records
 from .analysis.joints.stated_limits import check_limits
 from .collector import collector_paused
-from .diagnostics import KinefabError, Report
+from .diagnostics import KinefabError, Report, named
 from .geometry.collision import collision_meshes
 from .geometry.contact.helping import with_helpers
 from .geometry.loading import MeshFiles, load_geometry
@@ -163,6 +163,7 @@ def analysed(scene: Scene, options: ExportOptions, report: Report, progress: Pro
         scene, AnalysisOptions(options.closures, options.limits), lambda done: progress("limits", done)
     )
     report.extend(found.report)
+    _tell_unjoined(found, report)
     exported = with_helpers(found.scene(options.solve))
     together = [*found.fixed, *found.built]
     if isinstance(scene, WrittenScene):
@@ -172,6 +173,21 @@ def analysed(scene: Scene, options: ExportOptions, report: Report, progress: Pro
     exported = with_mated_apart(exported, groups)
     progress("analyse", 1.0)
     return Analysed(found, exported, groups)
+
+
+def _tell_unjoined(found: Analysis, report: Report) -> None:
+    """That all of an assembly falls apart: nothing is joined, fixed or grounded.
+
+    One part alone is a thing that falls, and a loose one beside a mechanism, or on a floor, mostly is meant to; but of parts that are to
+    be an assembly somebody expects that they hold.  A file of exact shapes has been told of by what it needs, its mates.
+    """
+    if found.joints or any(found.groups.grounded) or len(found.groups.members) < 2:
+        return
+    if any(node.dynamics.kinematic for node in found.source.nodes):
+        return
+    if not any(told.code == "MATES_NOT_ASKED" for told in report.diagnostics):
+        first = [found.source.nodes[members[0]].id for members in found.groups.members]
+        report.add("NOTHING_JOINED", count=len(first), parts=named(first, 3))
 
 
 @collector_paused()

@@ -22,11 +22,14 @@ LEDGER = ".kinefab-batch"
 
 
 AWAITED = frozenset(
-    "FREECAD_LINK_BROKEN INCLUDE_NOT_FOUND MATERIALS_MISSING MESH_NOT_FOUND MESH_OUTSIDE MESH_UNREADABLE PACKAGE_PATH_NOT_FOUND"
+    "FREECAD_LINK_BROKEN INCLUDE_NOT_FOUND MESH_NOT_FOUND MESH_OUTSIDE MESH_UNREADABLE PACKAGE_PATH_NOT_FOUND"
     " STEP_FILE_MISSING TEXTURE_NOT_FOUND TEXTURE_UNREADABLE USD_COMPOSITION USD_TEXTURE_MISSING".split()
 )
-"""Findings of files that were not where a source looks for them.  Nothing of those was read, so nothing tells that they
-have come since: the source is read again."""
+"""Findings of files that were not where a source looks for them, and that were looked for without being opened.  Nothing
+of those was heard, so nothing tells that they have come since: the source is read again."""
+
+ABSENT = ""
+"""Digest of a file that is not there."""
 
 
 def record_place(job: Job) -> str:
@@ -70,7 +73,7 @@ def forget(job: Job) -> None:
 
 
 def note(job: Job, version: str, record: Record, read: dict[str, str], files: list[str]) -> None:
-    """Remember what was done.  read: digest of each file that was read, by path."""
+    """Remember what was done.  read: digest of each file that was read, by path, ABSENT of one that was missed."""
     content = {
         "version": version,
         "options": job.options,
@@ -103,8 +106,8 @@ def _digest(path: str) -> str:
     try:
         content = places.read_bytes(path)
     except OSError:
-        return ""
-    return "" if content is None else hashlib.sha256(content).hexdigest()
+        return ABSENT
+    return ABSENT if content is None else hashlib.sha256(content).hexdigest()
 
 
 CODE = (".py", ".pyc", ".so", ".pyd")
@@ -121,10 +124,14 @@ def _programs() -> tuple[str, ...]:
 
 
 class Reading:
-    """Files that this process opens for reading, by Python's own audit events; libraries' own are named beside it."""
+    """Files that this process opens for reading, by Python's own audit events; libraries' own are named beside it.
+
+    Those that it wanted to open and that were not there count too: what was made without them is to be made anew when they come.
+    """
 
     def __init__(self) -> None:
         self.paths: dict[str, tuple[int, int]] = {}
+        self.absent: set[str] = set()
         self._on = False
         self._apart = _programs()
         sys.addaudithook(self._heard)
@@ -140,12 +147,19 @@ class Reading:
     def clear(self) -> None:
         """Forget; for the next job."""
         self.paths.clear()
+        self.absent.clear()
 
     def add(self, path: str | Path) -> None:
         with suppress(OSError, ValueError):
             real = os.path.realpath(path)
-            found = os.stat(real)
-            if os.path.isfile(real) and not real.startswith(self._apart) and not real.endswith(CODE):
+            if real.startswith(self._apart) or real.endswith(CODE):
+                return
+            try:
+                found = os.stat(real)
+            except (FileNotFoundError, NotADirectoryError):
+                self.absent.add(real)
+                return
+            if os.path.isfile(real):
                 self.paths.setdefault(real, (found.st_mtime_ns, found.st_size))
 
     def leave_out(self, files: Iterable[Path], target: Path) -> None:
@@ -156,13 +170,16 @@ class Reading:
         heads = (os.path.join(folder, target.stem, ""), os.path.join(folder, f".{target.stem}."))
         for path in [path for path in self.paths if path in own or path.startswith(heads)]:
             del self.paths[path]
+        beside = (*heads, os.path.join(folder, target.name))  # with Unity's .meta, looked for before it is written
+        self.absent = {path for path in self.absent if path not in own and not path.startswith(beside)}
 
     def changed(self) -> list[str]:
         """Those that are not as they were when they were first opened."""
         return [path for path, seen in self.paths.items() if _stamp(path) != seen]
 
     def digests(self) -> dict[str, str]:
-        return {path: _digest(path) for path in self.paths}
+        """Of one that came only while the source was read: that it was absent, so that the next run reads it."""
+        return {path: _digest(path) for path in self.paths} | dict.fromkeys(self.absent, ABSENT)
 
     def _heard(self, event: str, args: tuple[Any, ...]) -> None:
         if self._on and event == "open" and isinstance(args[0], (str, bytes, os.PathLike)):

@@ -61,3 +61,36 @@ def test_one_value_of_an_option_that_may_have_several_is_the_only_one():
     asked = {"purpose": "proxy", "variant": "a=b"}
     for option in source_options():
         option.check(asked.get(option.name))
+
+
+SNIFFED = sorted({ending for entry in FORMATS if entry.sniffed for ending in entry.suffixes})
+
+
+def refused(path: Path):
+    with pytest.raises(KinefabError) as caught:
+        read(path, Report())
+    (found,) = caught.value.diagnostics
+    return found
+
+
+@pytest.mark.parametrize("ending", SNIFFED)
+@pytest.mark.parametrize("content", ["", "  \n"], ids=["empty", "blank"])
+def test_a_file_without_content_is_told_as_that_whatever_it_might_have_been(tmp_path, ending, content):
+    """It was said to be of no known format, and its own ending to be one that is."""
+    path = tmp_path / f"a{ending}"
+    path.write_text(content, encoding="utf-8")
+    assert refused(path).code == "SOURCE_EMPTY"
+    path.unlink()
+    assert refused(path).code == "SOURCE_NOT_FOUND"
+    path.mkdir()
+    assert refused(path).code == "SOURCE_IS_FOLDER"
+
+
+@pytest.mark.parametrize(
+    "name, formats", [("a.sdf", "SDF"), ("a.xml", "Simscape Multibody XML, MJCF"), ("a.mjcf", "MJCF")]
+)
+def test_of_a_known_ending_it_is_the_content_that_no_reader_knows(tmp_path, name, formats):
+    (tmp_path / name).write_text("no markup", encoding="utf-8")
+    found = refused(tmp_path / name)
+    assert found.code == "SOURCE_FORMAT_UNKNOWN" and f"its content is none of {formats}." in found.message
+    assert "Give one of" not in found.remedy

@@ -125,16 +125,7 @@ def read(
         report.raise_for_errors()
     found = format_of(path)
     if found is None:
-        known, road = ", ".join(sorted(known_suffixes())), road_of(path.name)
-        if not road and not os.path.lexists(path):
-            report.add("SOURCE_NOT_FOUND", path.name, path=path)
-            report.raise_for_errors()
-        if path.is_dir():
-            report.add("SOURCE_IS_FOLDER", path.name, path=path)
-            report.raise_for_errors()
-        report.add(
-            "SOURCE_FORMAT_UNKNOWN", path.name, path=path, road=f"{road} " if road else "", known=known
-        )
+        _tell_unknown(path, report)
         report.raise_for_errors()
         raise AssertionError("an unknown format is an error")
     for name in found.requires:
@@ -164,6 +155,26 @@ def read(
     if chosen:
         scene.source = replace(scene.source, configuration="; ".join(chosen))
     return scene
+
+
+def _tell_unknown(path: Path, report: Report) -> None:
+    """Why no reader takes a file; of a known ending it is the content that is of none of its formats, if there is any."""
+    road = road_of(path.name)
+    road = f"{road} " if road else ""
+    if formats := [entry.name for entry in FORMATS if path.name.lower().endswith(entry.suffixes)]:
+        from .reading.file import read_bytes
+
+        read_bytes(path, report)  # missing, a folder, unreadable, empty: as every reader tells it
+        content = f": its content is none of {', '.join(formats)}"
+        advice = "Check that it is the file that was meant, or export it again."
+        report.add("SOURCE_FORMAT_UNKNOWN", path.name, path=path, content=content, road=road, advice=advice)
+    elif not road and not os.path.lexists(path):
+        report.add("SOURCE_NOT_FOUND", path.name, path=path)
+    elif path.is_dir():
+        report.add("SOURCE_IS_FOLDER", path.name, path=path)
+    else:
+        advice = f"Give one of: {', '.join(sorted(known_suffixes()))}."
+        report.add("SOURCE_FORMAT_UNKNOWN", path.name, path=path, content="", road=road, advice=advice)
 
 
 @runtime_checkable

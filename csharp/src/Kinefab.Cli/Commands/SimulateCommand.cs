@@ -1,4 +1,5 @@
 using System;
+using System.Collections.Generic;
 using System.CommandLine;
 using System.Globalization;
 using System.Linq;
@@ -23,7 +24,7 @@ internal static class SimulateCommand
         Option<string?> output = TypedOptions.Trajectory();
         var drives = new Option<string[]>("--drive")
         {
-            Description = "JOINT[.COORDINATE]=VALUE[/s]: drive a joint to a value or, with /s, at a speed; degrees or metres. JOINT is what the source calls it, or the id or name of its GameObject, with [COMPONENT] behind it where one object carries several joints.",
+            Description = $"JOINT[.COORDINATE]=VALUE[/s]: drive a joint to a value or, with /s, at a speed; degrees or metres, at most {DriveRange.Degrees} or {DriveRange.Metres} (a second). May be repeated, once for each coordinate. JOINT is what the source calls it, or the id or name of its GameObject, with [COMPONENT] behind it where one object carries several joints.",
         };
         var record = new Option<string?>("--record") { Description = "Write down the run, NAME.kfrec: what went in, and a hash of the state after its steps." };
         Option<int> every = TypedOptions.Count("--every", "Steps between two hashes of --record.", most: TypedOptions.MostSteps, standard: 1);
@@ -105,12 +106,21 @@ internal static class SimulateCommand
             Tell(file, world.Findings);
             Report before = loaded.Report.Concat(world.Findings);
             Mechanism? mechanism = Drives.Length == 0 && Output is null ? null : Mechanism.Create(loaded.Scene);
+            var drives = new List<DriveSetting>();
             foreach (string text in Drives)
             {
-                if (DriveSetting.Apply(world, mechanism!, text) is string fault)
+                DriveSetting? drive = DriveSetting.Read(world, mechanism!, text, out string fault);
+                if (drive is null)
                     return SceneOutcome.Refused(before, $"--drive {text}: {fault}");
+                if (drives.Find(other => other.Coordinate == drive.Coordinate) is DriveSetting other)
+                    return SceneOutcome.Refused(before, $"--drive {text}: {other.Text} drives {drive.Coordinate.ShortName} already, and a coordinate has one drive.");
+                drives.Add(drive);
             }
 
+            var doubts = new Report([.. drives.Select(drive => drive.Doubt(loaded.Scene, dt)).OfType<Diagnostic>()]);
+            Tell(file, doubts);
+            before = before.Concat(doubts);
+            drives.ForEach(drive => drive.Apply());
             var steps = (int)count;
             if (Output is not null && TrajectorySize.Fault(steps, world.Bodies.Count, mechanism!.Coordinates.Count) is string excess)
                 return SceneOutcome.Refused(before, $"--output {Output}: {excess} Give fewer seconds or a longer --step.");
@@ -121,12 +131,12 @@ internal static class SimulateCommand
                     return Fail(file, before, target);
             }
 
-            return Move(file, loaded.Scene, world, mechanism, steps, dt, before, plan);
+            return Move(file, loaded.Scene, world, mechanism, steps, dt, before, plan, drives);
         }
 
-        private SceneOutcome Move(string file, ValidScene scene, World world, Mechanism? mechanism, int steps, double dt, Report before, RunRecord? plan)
+        private SceneOutcome Move(string file, ValidScene scene, World world, Mechanism? mechanism, int steps, double dt, Report before, RunRecord? plan, List<DriveSetting> drives)
         {
-            var summary = new RunSummary(world, scene, Kind, steps, dt);
+            var summary = new RunSummary(world, scene, Kind, steps, dt, drives);
             Recording? recording = Output is null ? null : new Recording(world, mechanism!, Kind, dt);
             StateHashes? hashes = plan is null ? null : new StateHashes(world, plan, isReplay: ReplayOf is not null);
             hashes?.Note();

@@ -11,16 +11,12 @@ namespace Kinefab.Cli.Commands;
 /// <summary>dotnet kinefab sweep FILES --joint ID --from A --to B --steps N [-o traj.json|csv] [--into-animation] [--json] [--junit FILE].</summary>
 internal static class SweepCommand
 {
-    // The solver walks all of the way, in steps of a fraction of a radian or of the mechanism's length.
-    private const double FarthestDegrees = 360_000;
-    private const double FarthestMetres = 1000;
-
     internal static Command Create()
     {
         var scenes = new SceneArguments();
         var joint = new Option<string>("--joint") { Description = "ID[.COORDINATE]: what the source calls the joint, or id or name of the object with it, with [COMPONENT] behind it where one object carries several.", Required = true };
         Option<double?> from = TypedOptions.Finite("--from", "First value, degrees or metres; default: the low end of the range, or 0 for a whole turn.");
-        Option<double?> to = TypedOptions.Finite("--to", $"Last value; default: the high end of the range. Values up to {FarthestDegrees} deg or {FarthestMetres} m either way.");
+        Option<double?> to = TypedOptions.Finite("--to", $"Last value; default: the high end of the range. Values up to {DriveRange.Degrees} deg or {DriveRange.Metres} m either way.");
         Option<int> steps = TypedOptions.Count("--steps", "Number of steps.", most: TypedOptions.MostSteps, standard: 72);
         Option<string?> output = TypedOptions.Trajectory();
         var animation = new Option<bool>("--into-animation") { Description = "Write the sweep into the scene as an animation clip." };
@@ -52,10 +48,9 @@ internal static class SweepCommand
             if (!mechanism.TryFindCoordinate(Joint, out int coordinate, out string fault))
                 return SceneOutcome.Refused(loaded.Report, $"--joint {Joint}: {fault}");
 
-            bool isAngle = mechanism.Coordinates[coordinate].IsAngle;
-            double farthest = isAngle ? FarthestDegrees : FarthestMetres;
-            if (Math.Max(Math.Abs(From ?? 0), Math.Abs(To ?? 0)) > farthest)
-                return SceneOutcome.Refused(loaded.Report, $"--from and --to must lie between -{SweepText.Number(farthest)} and {SweepText.Number(farthest)} {(isAngle ? "deg" : "m")} for {Joint}.");
+            MechanismCoordinate driven = mechanism.Coordinates[coordinate];
+            if (DriveRange.Fault(driven, Math.Max(Math.Abs(From ?? 0), Math.Abs(To ?? 0)), driven.Unit) is string range)
+                return SceneOutcome.Refused(loaded.Report, $"--from and --to {range} for {Joint}.");
 
             if (TrajectorySize.Fault(Steps, mechanism.Bodies.Count, mechanism.Coordinates.Count) is string excess)
                 return SceneOutcome.Refused(loaded.Report, $"--steps {Steps}: {excess} Give fewer steps.");

@@ -10,19 +10,20 @@ using Kinefab.Validation;
 
 namespace Kinefab.Cli.Simulation;
 
-/// <summary>What is worth telling of a run: drift, range, limits and breaking of every joint, and the energy.</summary>
+/// <summary>What is worth telling of a run: drift, range, limits and breaking of every joint, what came of the drives, and the energy.</summary>
 internal sealed class RunSummary
 {
     private readonly World world;
     private readonly ValidScene scene;
     private readonly JointRecord[] joints;
+    private readonly DriveRecord[] drives;
     private readonly double startEnergy;
 
     private readonly SolverKind kind;
     private readonly int steps;
     private readonly double dt;
 
-    internal RunSummary(World world, ValidScene scene, SolverKind kind, int steps, double dt)
+    internal RunSummary(World world, ValidScene scene, SolverKind kind, int steps, double dt, IEnumerable<DriveSetting> driven)
     {
         this.kind = kind;
         this.steps = steps;
@@ -30,6 +31,7 @@ internal sealed class RunSummary
         this.world = world;
         this.scene = scene;
         joints = world.Joints.Select(j => new JointRecord(j)).ToArray();
+        drives = driven.Select(drive => new DriveRecord(drive, dt)).ToArray();
         startEnergy = world.KineticEnergy + world.PotentialEnergy;
         world.JointBroken += (_, e) => joints[IndexOf(e.Joint)].BrokenAt = world.Time;
     }
@@ -39,6 +41,8 @@ internal sealed class RunSummary
     {
         foreach (JointRecord joint in joints)
             joint.Note(world.Time);
+        foreach (DriveRecord drive in drives)
+            drive.Note();
     }
 
     internal void Write(TextWriter target)
@@ -47,9 +51,11 @@ internal sealed class RunSummary
         target.WriteLine(Text($"{Counted.Of(steps, "step", "steps")} of {dt} s, {kind.ToString().ToLowerInvariant()} solver"));
         target.WriteLine(Text($"energy {startEnergy:0.####} J -> {end:0.####} J ({end - startEnergy:+0.####;-0.####;0} J)"));
         if (world.Stops > 0)
-            target.WriteLine(Text($"the solver could not follow: motion was stopped {Counted.Of(world.Stops, "time", "times")}"));
+            target.WriteLine(Text($"the solver could not follow: motion was stopped {Counted.Of(world.Stops, "time", "times")}. Take a shorter --step, or drive it less fast."));
         foreach (JointRecord joint in joints)
             joint.Write(target, scene.Document.GameObjects[joint.Joint.GameObject].Name);
+        foreach (DriveRecord drive in drives)
+            drive.Write(target);
     }
 
     /// <summary>The field "simulation" of schemas/report.schema.json into an open JSON object.</summary>
@@ -65,6 +71,10 @@ internal sealed class RunSummary
         json.WriteStartArray("joints");
         foreach (JointRecord joint in joints)
             joint.WriteJson(json);
+        json.WriteEndArray();
+        json.WriteStartArray("drives");
+        foreach (DriveRecord drive in drives)
+            drive.WriteJson(json);
         json.WriteEndArray();
         json.WriteEndObject();
     }

@@ -336,6 +336,12 @@ public static class DiagnosticCodes
     /// <summary>The drive of a joint has no limit of force, and the rest of the mechanism does not let it move as it is asked, from {time} s: {joints}. It stalls there.</summary>
     public const string DriveStalled = "DRIVE_STALLED";
 
+    /// <summary>{coordinate} is to go to {target}, and its own limits end at {limit}.</summary>
+    public const string DriveBeyondLimits = "DRIVE_BEYOND_LIMITS";
+
+    /// <summary>{coordinate} is to turn at {speed}, which is {angle} degrees in a step of {step} s: from 180 on no step tells which way it turns.</summary>
+    public const string DriveSpeedCoarse = "DRIVE_SPEED_COARSE";
+
     /// <summary>The exact solver found no motion of the mechanism of {object} in a part of the step from {time} s: {reason}. The mechanism stands still in that part, and its speeds fall.</summary>
     public const string StepUnsolved = "STEP_UNSOLVED";
 

@@ -86,7 +86,8 @@ public abstract class WorldJoint
     /// Drives a coordinate towards a value, with the component's own spring gains or, if it has none, firmly: the gap
     /// closes with a time constant of 0.1 s whatever loads the joint, by the component's drive limit if it has one. The exact solver holds that
     /// motion as it holds a joint, and begins that to a goal far away, or to one that the mechanism does not follow, slowly; the other has a stiff spring
-    /// follow it. Stands until Settings is set.
+    /// follow it. Stands until Settings is set. A goal that limits, or the rest of the mechanism, keep it from is no error: what it came to is what
+    /// <see cref="Coordinate"/> says after the run.
     /// </summary>
     /// <param name="coordinate">As in <see cref="Coordinate"/>.</param>
     /// <param name="target">Degrees (over any number of turns) or metres, zero at the start. Goals about several axes of a joint add up to one rotation.</param>

@@ -38,7 +38,9 @@ internal static class Program
             return parsed.Invoke(new InvocationConfiguration { Output = Console.Out, Error = Console.Error });
         foreach (var error in parsed.Errors)
             Console.Error.WriteLine(Printable.Text(error.Message));
-        return WrongUsage.Refuse("Run 'dotnet kinefab --help' for the commands and their options.");
+        return WrongUsage.Refuse(parsed.CommandResult.Command is RootCommand
+            ? "Run 'dotnet kinefab --help' for the commands."
+            : $"Run 'dotnet kinefab {parsed.CommandResult.Command.Name} --help' for its arguments and options.");
     }
 
     /// <summary>Every command that there is.</summary>

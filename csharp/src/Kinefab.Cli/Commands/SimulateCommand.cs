@@ -18,7 +18,7 @@ internal static class SimulateCommand
     internal static Command Create()
     {
         var scenes = new SceneArguments();
-        Option<double?> seconds = TypedOptions.Positive("--seconds", $"How long to simulate; at most {TypedOptions.MostSteps} steps.");
+        Option<double?> seconds = TypedOptions.Positive("--seconds", $"How long to simulate; at most {TypedOptions.MostSteps} steps. Required, but for --replay.");
         Option<double?> step = TypedOptions.Positive("--step", "Time step in seconds; default: the scene's fixedTimestep.");
         Option<SolverKind> solver = TypedOptions.Solver();
         Option<string?> output = TypedOptions.Trajectory();
@@ -34,7 +34,7 @@ internal static class SimulateCommand
         {
             bool isReplay = result.GetResult(replay) is not null;
             if (!isReplay && result.GetResult(seconds) is null)
-                result.AddError("Option '--seconds' is required.");
+                result.AddError("--seconds is required: how long to simulate.");
             foreach (Option given in new Option[] { seconds, step, solver, drives, record, every })
             {
                 if (isReplay && result.GetResult(given) is { Implicit: false })

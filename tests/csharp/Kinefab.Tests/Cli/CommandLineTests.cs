@@ -171,6 +171,21 @@ public class CommandLineTests
         }
     }
 
+    [TestCase("'dotnet kinefab --help'")]
+    [TestCase("'dotnet kinefab --help'", "explode")]
+    [TestCase("'dotnet kinefab validate --help'", "validate")]
+    [TestCase("'dotnet kinefab inspect --help'", "inspect", "--nonsense", "a.kinefab")]
+    [TestCase("'dotnet kinefab mobility --help'", "mobility")]
+    [TestCase("'dotnet kinefab advise --help'", "advise", "a.kinefab", "--trials", "0")]
+    [TestCase("'dotnet kinefab simulate --help'", "simulate", "a.kinefab")]
+    [TestCase("'dotnet kinefab sweep --help'", "sweep", "a.kinefab")]
+    public void AnyCommand_WrongUsage_PointsToItsOwnHelp(string help, params string[] arguments) =>
+        Assert.That(Run(arguments).Findings.TrimEnd().Split('\n')[^1], Does.StartWith("Run " + help));
+
+    [Test]
+    public void Help_Simulate_SaysThatSecondsAreRequired() =>
+        Assert.That(Run("simulate", "--help").Data, Does.Match("--seconds <seconds> .*Required, but for --replay"));
+
     [TestCase("validate")]
     [TestCase("inspect")]
     public void AnyCommand_NoSuchFile_Exits1WithoutATrace(string command)

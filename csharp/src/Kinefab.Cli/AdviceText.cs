@@ -9,6 +9,9 @@ namespace Kinefab.Cli;
 /// <summary>Stability advice as people read it.</summary>
 internal static class AdviceText
 {
+    /// <summary>What the words before a change mean, and its figure: a small one is a good one.</summary>
+    internal const string Legend = "do: the best of the changes that were tried; tried: the others. The figure before a change is what is left once it is made, not what it gains.";
+
     internal static void Write(string file, AdviceReport advice, TextWriter target)
     {
         int warnings = advice.Report.Count(Severity.Warning);
@@ -17,6 +20,8 @@ internal static class AdviceText
             Write(finding, target);
         foreach (Diagnostic remark in advice.Report.Diagnostics.Skip(advice.Findings.Count))
             Line(target, $"{remark.Severity.ToJson()} {remark.Code}: {remark.Message} {remark.Remedy}");
+        if (advice.Findings.Any(finding => finding.Tried.Count > 0))
+            Line(target, Legend);
     }
 
     private static void Write(AdviceFinding finding, TextWriter target)

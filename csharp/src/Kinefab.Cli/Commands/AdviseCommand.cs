@@ -14,7 +14,7 @@ internal static class AdviseCommand
         var scenes = new SceneArguments();
         Option<double?> seconds = TypedOptions.Positive("--seconds", "How long to simulate; default: 2, less in scenes of many joints.");
         Option<int> trials = TypedOptions.Count("--trials", "Changes to try at most.", MostTrials, new AdviceOptions().MaxTrials);
-        var command = new Command("advise", "Say what Unity's solver will make trouble of, and what was tried against it and helped.") { seconds, trials };
+        var command = new Command("advise", $"Say what Unity's solver will make trouble of, and what was tried against it and helped. In what it prints, {AdviceText.Legend}") { seconds, trials };
         scenes.AddTo(command);
         command.SetAction(parsed =>
         {

@@ -42,6 +42,18 @@ public sealed class AdviseCommandTests
     }
 
     [Test]
+    public void Advise_Words_AreExplainedBelowThemAndInTheHelp()
+    {
+        const string legend = "do: the best of the changes that were tried; tried: the others. The figure before a change is what is left once it is made, not what it gains.";
+
+        Assert.That(CommandLineTests.Run("advise", AdviceScene.Lever, "--trials", "2").Data.TrimEnd(), Does.EndWith(legend));
+        Assert.That(CommandLineTests.Run("advise", AdviceScene.Lever, "--trials", "2", "--json").Data, Does.Not.Contain("do: the best"));
+        Assert.That(CommandLineTests.Run("advise", "--help").Data, Does.Contain(legend));
+        string still = Path.Combine(ConformanceCases.Folder, "valid", "scene", "minimal.kinefab");
+        Assert.That(CommandLineTests.Run("advise", still).Data, Does.Not.Contain(legend), "nothing was tried");
+    }
+
+    [Test]
     public void Advise_JsonTwice_IsTheSameAndFollowsItsSchema()
     {
         string first = CommandLineTests.Run("advise", AdviceScene.Lever, "--json").Data;

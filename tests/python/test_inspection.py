@@ -7,6 +7,7 @@ from pathlib import Path
 
 import kinefab
 import pytest
+from kinefab.diagnostics import diagnostic_table
 from kinefab.unity.back.scene_file import read_scene_file
 from kinefab.views.overview import overview, picture
 
@@ -63,6 +64,31 @@ def test_index_that_leads_nowhere_is_a_finding(tmp_path, fields, place, index):
     leads_nowhere = "PARENT_NOT_EARLIER" if place.endswith("parent") else "REFERENCE_UNRESOLVED"
     assert found.code == (leads_nowhere if type(index) is int else "TYPE_MISMATCH")
     assert found.where == f"{path}#/{place}"
+
+
+def test_what_is_lost_for_one_reason_is_told_once_with_its_code_and_remedy(tmp_path):
+    """A sentence of 350 characters stood there once for each part, without the code and what to do."""
+    hollow = {"code": "COLLIDERS_NOT_CUT", "message": "Hollow."}
+    remedy = diagnostic_table()["COLLIDERS_NOT_CUT"]["remedy"]
+    report = [
+        {"feature": "collider A", "outcome": "approximated", **hollow},
+        {"feature": "joint C", "outcome": "dropped", "code": "UNIT_UNKNOWN", "message": "Its unit."},
+        {"feature": "collider B", "outcome": "approximated", **hollow},
+        {"feature": "joint D", "outcome": "dropped"},
+        {"feature": "joint F", "outcome": "dropped", "code": "OF_TOMORROW", "message": "New."},
+        {"feature": "joint E", "outcome": "kept"},
+    ]
+    path = tmp_path / "a.kinefab"
+    scene = {"format": "kinefab.scene", "version": "1.0", "gameObjects": [], "report": report}
+    path.write_text(json.dumps(scene), encoding="utf-8")
+    assert overview(path, False).splitlines()[-6:] == [
+        f"  approximated 2 features COLLIDERS_NOT_CUT: Hollow. {remedy}",
+        "    collider A",
+        "    collider B",
+        "  dropped joint C UNIT_UNKNOWN: Its unit.",
+        "  dropped joint D",
+        "  dropped joint F OF_TOMORROW: New.",
+    ]
 
 
 def test_a_joint_is_told_with_what_it_leaves_and_what_it_does_in_a_loop():

@@ -25,8 +25,8 @@ internal static class SummaryText
         if (document.Analysis is Analysis analysis)
             WriteAnalysis(analysis, target);
         Line(target, $"source     {summary.Count(Outcome.Kept)} kept, {summary.Count(Outcome.Approximated)} approximated, {summary.Count(Outcome.Dropped)} dropped");
-        foreach (ReportEntry entry in document.Report.Where(entry => entry.Outcome != Outcome.Kept))
-            Entry(target, Describe(entry));
+        foreach (IGrouping<(Outcome, string?, string?), ReportEntry> alike in document.Report.Where(entry => entry.Outcome != Outcome.Kept).GroupBy(entry => (entry.Outcome, entry.Code, entry.Message)))
+            WriteLosses([.. alike], target);
     }
 
     private static void WriteAnalysis(Analysis analysis, TextWriter target)
@@ -64,13 +64,19 @@ internal static class SummaryText
     private static string Describe(JointCoordinate coordinate, SceneSummary summary) =>
         $"{summary.NameOf(coordinate.GameObject, coordinate.Component)}.{coordinate.Coordinate.ToJson()}";
 
-    private static string Describe(ReportEntry entry)
+    // Features lost for one reason: the reason once, and each of them below it.
+    private static void WriteLosses(IReadOnlyList<ReportEntry> alike, TextWriter target)
     {
-        string code = entry.Code is null ? "" : " " + entry.Code;
-        string message = entry.Message is null ? "" : ": " + entry.Message;
-        string source = entry.Source is null ? "" : $" ({entry.Source})";
-        return $"{entry.Outcome.ToJson()} {entry.Feature}{code}{message}{source}";
+        ReportEntry first = alike[0];
+        bool isOne = alike.Count == 1;
+        string code = first.Code is null ? "" : " " + first.Code;
+        string message = first.Message is null ? "" : ": " + first.Message;
+        Entry(target, $"{first.Outcome.ToJson()} {(isOne ? first.Feature : Counted.Of(alike.Count, "feature", "features"))}{code}{message}{(isOne ? Place(first) : "")}");
+        foreach (ReportEntry entry in isOne ? [] : alike)
+            Entry(target, $"  {entry.Feature}{Place(entry)}");
     }
+
+    private static string Place(ReportEntry entry) => entry.Source is null ? "" : $" ({entry.Source})";
 
     private static string Number(double value) => value.ToString("0.######", CultureInfo.InvariantCulture);
 

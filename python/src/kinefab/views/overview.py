@@ -7,7 +7,7 @@ from collections.abc import Iterator, Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
-from ..diagnostics import printable
+from ..diagnostics import diagnostic_table, printable
 from ..unity.back.scene_file import read_scene, unsound_as_finding
 
 
@@ -89,6 +89,30 @@ def _by_hierarchy(objects: Sequence[Mapping[str, Any]]) -> Iterator[tuple[int, M
         waiting += [(depth + 1, child) for child in reversed(children.get(index, []))]
 
 
+def _losses(report: Sequence[Mapping[str, Any]]) -> Iterator[str]:
+    """What is not as the source has it, each reason once, with its code and remedy; what shares one stands below it."""
+    alike: dict[tuple[str, str, str], list[str]] = {}
+    for entry in report:
+        if entry["outcome"] != "kept":
+            reason = entry["outcome"], entry.get("code", ""), entry.get("message", "")
+            alike.setdefault(reason, []).append(entry["feature"])
+    for (outcome, code, message), features in alike.items():
+        several = len(features) > 1
+        head = " ".join(filter(None, [outcome, f"{len(features)} features" if several else features[0], code]))
+        said = " ".join(filter(None, [message, _remedy(code)]))
+        yield f"  {head}: {said}".rstrip(": ")
+        if several:
+            yield from (f"    {feature}" for feature in features)
+
+
+def _remedy(code: str) -> str:
+    """Of a code of which no more is known; none where it takes values, which a scene does not hold, or is of another version."""
+    try:
+        return diagnostic_table()[code]["remedy"].format_map({})
+    except KeyError:
+        return ""
+
+
 def render(description: Mapping[str, Any]) -> str:
     """The description as text for a terminal or a log."""
     lines: list[str] = []
@@ -113,9 +137,5 @@ def render(description: Mapping[str, Any]) -> str:
     words = ("kept", "approximated", "dropped")
     counts = [sum(entry["outcome"] == word for entry in description["report"]) for word in words]
     lines.append(", ".join(f"{count} {word}" for count, word in zip(counts, words)))
-    lines += [
-        f"  {entry['outcome']} {entry['feature']}: {entry.get('message', '')}".rstrip(": ")
-        for entry in description["report"]
-        if entry["outcome"] != "kept"
-    ]
+    lines += _losses(description["report"])
     return "\n".join(map(printable, lines))

@@ -110,6 +110,23 @@ public class CommandLineTests
     }
 
     [Test]
+    public void Inspect_FeaturesLostForOneReason_HaveItOnce()
+    {
+        string path = Path.Combine(TestContext.CurrentContext.WorkDirectory, "alike.kinefab");
+        File.WriteAllText(
+            path,
+            """
+            {"format": "kinefab.scene", "version": "1.0", "gameObjects": [],
+             "report": [{"feature": "collider A", "outcome": "approximated", "code": "COLLIDERS_NOT_CUT", "message": "Hollow."},
+                        {"feature": "joint C", "outcome": "dropped", "code": "COLLIDERS_NOT_CUT", "message": "Hollow."},
+                        {"feature": "collider B", "outcome": "approximated", "code": "COLLIDERS_NOT_CUT", "message": "Hollow.", "source": "b.json"}]}
+            """);
+        string data = Run("inspect", path).Data.ReplaceLineEndings("\n");
+        Assert.That(data, Does.EndWith(
+            "  approximated 2 features COLLIDERS_NOT_CUT: Hollow.\n    collider A\n    collider B (b.json)\n  dropped joint C COLLIDERS_NOT_CUT: Hollow.\n"));
+    }
+
+    [Test]
     public void Inspect_RatioOfAFineScrew_KeepsItsDigits()
     {
         string path = Path.Combine(TestContext.CurrentContext.WorkDirectory, "screw.kinefab");

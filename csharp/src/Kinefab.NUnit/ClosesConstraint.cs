@@ -21,12 +21,14 @@ public sealed class ClosesConstraint : Constraint
     /// <returns>This constraint, to go on with.</returns>
     public ClosesConstraint Within(double tolerance)
     {
-        _tolerance = tolerance >= 0 ? tolerance : throw new ArgumentOutOfRangeException(nameof(tolerance));
+        _tolerance = tolerance >= 0 ? tolerance : throw Figures.Negative(nameof(tolerance), tolerance);
         return this;
     }
 
     /// <inheritdoc/>
-    public override ConstraintResult ApplyTo<TActual>(TActual actual)
+    public override ConstraintResult ApplyTo<TActual>(TActual actual) => FaultyFile.OrResult(this, actual, () => Judge(actual));
+
+    private MechanismResult Judge(object? actual)
     {
         (double metres, double degrees) = actual is SweepResult sweep ? (sweep.WorstErrorMetres, sweep.WorstErrorDegrees) : Close(actual);
         bool isSuccess = metres <= _tolerance && degrees * (Math.PI / 180) <= _tolerance;

@@ -50,7 +50,7 @@ public sealed class DrivesConstraint : Constraint
     /// <returns>This constraint, to go on with.</returns>
     public DrivesConstraint Steps(int steps)
     {
-        _steps = steps > 0 ? steps : throw new ArgumentOutOfRangeException(nameof(steps));
+        _steps = steps > 0 ? steps : throw new ArgumentOutOfRangeException(nameof(steps), steps, "It takes 1 step or more.");
         return this;
     }
 
@@ -64,12 +64,14 @@ public sealed class DrivesConstraint : Constraint
     /// <returns>This constraint, to go on with.</returns>
     public DrivesConstraint Within(double tolerance)
     {
-        _tolerance = tolerance >= 0 ? tolerance : throw new ArgumentOutOfRangeException(nameof(tolerance));
+        _tolerance = tolerance >= 0 ? tolerance : throw Figures.Negative(nameof(tolerance), tolerance);
         return this;
     }
 
     /// <inheritdoc/>
-    public override ConstraintResult ApplyTo<TActual>(TActual actual)
+    public override ConstraintResult ApplyTo<TActual>(TActual actual) => FaultyFile.OrResult(this, actual, () => Judge(actual));
+
+    private MechanismResult Judge(object? actual)
     {
         Mechanism mechanism = Tested.Mechanism(actual);
         int driven = mechanism.CoordinateNamed(_driven);

@@ -46,7 +46,7 @@ public sealed class EnergyConstraint : Constraint
     /// <returns>This constraint, to go on with.</returns>
     public EnergyConstraint Within(double tolerance)
     {
-        _tolerance = tolerance >= 0 ? tolerance : throw new ArgumentOutOfRangeException(nameof(tolerance));
+        _tolerance = tolerance >= 0 ? tolerance : throw Figures.Negative(nameof(tolerance), tolerance);
         return this;
     }
 
@@ -55,7 +55,7 @@ public sealed class EnergyConstraint : Constraint
     /// <returns>This constraint, to go on with.</returns>
     public EnergyConstraint For(double seconds)
     {
-        _seconds = seconds > 0 && double.IsFinite(seconds) ? seconds : throw new ArgumentOutOfRangeException(nameof(seconds));
+        _seconds = seconds > 0 && double.IsFinite(seconds) ? seconds : throw new ArgumentOutOfRangeException(nameof(seconds), seconds, "How long it runs is a finite number of seconds above 0.");
         return this;
     }
 
@@ -69,7 +69,9 @@ public sealed class EnergyConstraint : Constraint
     }
 
     /// <inheritdoc/>
-    public override ConstraintResult ApplyTo<TActual>(TActual actual)
+    public override ConstraintResult ApplyTo<TActual>(TActual actual) => FaultyFile.OrResult(this, actual, () => Judge(actual));
+
+    private MechanismResult Judge(object? actual)
     {
         ValidScene scene = Tested.Scene(actual);
         World world = World.Create(scene, _solver);

@@ -19,6 +19,9 @@ internal static class Figures
     /// <summary>Six digits.</summary>
     public static string Number(double value) => value.ToString("G6", CultureInfo.InvariantCulture);
 
+    /// <summary>For a tolerance that is none.</summary>
+    public static ArgumentOutOfRangeException Negative(string parameter, double value) => new(parameter, value, "A tolerance is 0 or more.");
+
     /// <summary>As many indices of a series as a message shows, first and last among them.</summary>
     public static IEnumerable<int> Rows(int count)
     {

@@ -18,7 +18,9 @@ public sealed class MobilityConstraint : Constraint
     public override string Description => $"mobility {_freedoms}";
 
     /// <inheritdoc/>
-    public override ConstraintResult ApplyTo<TActual>(TActual actual)
+    public override ConstraintResult ApplyTo<TActual>(TActual actual) => FaultyFile.OrResult(this, actual, () => Judge(actual));
+
+    private MechanismResult Judge(object? actual)
     {
         Mechanism mechanism = Tested.Mechanism(actual);
         MobilityReport report = MobilityAnalysis.Of(mechanism);

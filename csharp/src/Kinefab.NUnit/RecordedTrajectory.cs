@@ -57,13 +57,21 @@ internal sealed class RecordedTrajectory
     public IReadOnlyList<(string Id, Pose[] Poses)> Bodies { get; }
 
     /// <summary>Reads a file.</summary>
-    /// <exception cref="InvalidDataException">It is no trajectory; the message says why.</exception>
+    /// <exception cref="InvalidDataException">It cannot be read, or is no trajectory; the message says why.</exception>
     public static RecordedTrajectory Read(string path)
     {
         try
         {
             using JsonDocument file = JsonDocument.Parse(File.ReadAllBytes(path));
             return new RecordedTrajectory(file.RootElement);
+        }
+        catch (Exception fault) when (fault is FileNotFoundException or DirectoryNotFoundException)
+        {
+            throw new InvalidDataException($"there is no file {path} (from {Directory.GetCurrentDirectory()}); dotnet kinefab sweep SCENE --joint JOINT -o {path} records one", fault);
+        }
+        catch (Exception fault) when (fault is IOException or UnauthorizedAccessException)
+        {
+            throw new InvalidDataException($"{path} cannot be read: {fault.Message}", fault);
         }
         catch (Exception fault) when (fault is JsonException or KeyNotFoundException or InvalidOperationException or FormatException or ArgumentException or InvalidDataException)
         {

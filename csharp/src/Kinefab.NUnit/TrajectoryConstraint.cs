@@ -29,14 +29,21 @@ public sealed class TrajectoryConstraint : Constraint
     /// <returns>This constraint, to go on with.</returns>
     public TrajectoryConstraint Within(double tolerance)
     {
-        _tolerance = tolerance >= 0 ? tolerance : throw new ArgumentOutOfRangeException(nameof(tolerance));
+        _tolerance = tolerance >= 0 ? tolerance : throw Figures.Negative(nameof(tolerance), tolerance);
         return this;
     }
 
     /// <inheritdoc/>
-    public override ConstraintResult ApplyTo<TActual>(TActual actual)
+    public override ConstraintResult ApplyTo<TActual>(TActual actual) => FaultyFile.OrResult(this, actual, () => Judge(actual));
+
+    private MechanismResult Judge(object? actual)
     {
         RecordedTrajectory recorded = RecordedTrajectory.Read(_path);
+        var ids = Tested.Scene(actual).Document.GameObjects.Select(gameObject => gameObject.Id).ToHashSet(StringComparer.Ordinal);
+        IEnumerable<string> moved = recorded.Bodies.Select(body => body.Id);
+        if ((recorded.IsDriven ? moved.Prepend(recorded.DriverId) : moved).FirstOrDefault(id => !ids.Contains(id)) is string absent)
+            return new MechanismResult(this, actual, isSuccess: false, $"{_path} is of another scene: this one has no {absent}");
+
         string stop = "";
         IEnumerable<Func<string, Pose>> motion = recorded.IsDriven ? Driven(Tested.Mechanism(actual), recorded, text => stop = text) : Run(Tested.Scene(actual), recorded);
         var rows = new List<string>();
@@ -81,7 +88,11 @@ public sealed class TrajectoryConstraint : Constraint
     {
         int driver = mechanism.FindCoordinate(mechanism.GameObjectNamed(recorded.DriverId), recorded.DriverComponent, recorded.DriverCoordinate);
         if (driver < 0)
-            throw new ArgumentException($"{recorded.DriverId}: the scene has no such coordinate to drive.", nameof(mechanism));
+        {
+            stop($"{recorded.DriverId}[{recorded.DriverComponent}] has no {recorded.DriverCoordinate} to drive in this scene");
+            yield break;
+        }
+
         var solver = new PositionSolver(mechanism);
         MechanismState state = mechanism.NewState();
         foreach (double value in recorded.At)

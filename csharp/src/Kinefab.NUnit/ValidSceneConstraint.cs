@@ -1,5 +1,4 @@
 using System.IO;
-using System.Linq;
 using Kinefab.Diagnostics;
 using Kinefab.Document;
 using Kinefab.Validation;
@@ -19,13 +18,7 @@ public sealed class ValidSceneConstraint : Constraint
     public override string Description => "a scene without errors";
 
     /// <inheritdoc/>
-    public override ConstraintResult ApplyTo<TActual>(TActual actual)
-    {
-        Report report = ReportOf(actual);
-        Diagnostic[] errors = report.Diagnostics.Where(d => d.Severity == Severity.Error).ToArray();
-        string found = errors.Length == 1 ? "1 error" : $"{errors.Length} errors";
-        return new MechanismResult(this, actual, errors.Length == 0, found, [.. errors.Select(Line)]);
-    }
+    public override ConstraintResult ApplyTo<TActual>(TActual actual) => FaultyFile.Errors(this, actual, ReportOf(actual));
 
     private static Report ReportOf(object? actual) => actual switch
     {
@@ -37,7 +30,4 @@ public sealed class ValidSceneConstraint : Constraint
         SceneValidation validation => validation.Report,
         _ => SceneValidator.Validate(Tested.Scene(actual).Document).Report,
     };
-
-    private static string Line(Diagnostic finding) =>
-        $"{finding.Code} {finding.Pointer}{(finding.Line is int line ? $" line {line}" : "")}: {finding.Message} {finding.Remedy}";
 }

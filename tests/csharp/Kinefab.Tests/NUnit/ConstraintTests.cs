@@ -35,13 +35,33 @@ public sealed class ConstraintTests
         File.WriteAllText(file, """{"format": "kinefab.scene", "version": "1.0", "gameObjects": [{"id": "a"}]}""");
         try
         {
-            Assert.That(Failure(file, SceneConstraints.Valid), Does.Contain("Expected: a scene without errors").And.Contain("/gameObjects/0").And.Contain("line 1"));
+            Assert.That(Failure(file, SceneConstraints.Valid), Does.Contain("Expected: a scene without errors").And.Contain($"But was:  1 error in {file}").And.Contain("/gameObjects/0").And.Contain("line 1"));
         }
         finally
         {
             File.Delete(file);
         }
     }
+
+    // An exception would show where in the library the reading ended, twice, and not the file.
+    [TestCaseSource(nameof(All))]
+    public void AnyConstraint_OfABrokenFile_FailsWithItsNameAndFindings(Constraint constraint)
+    {
+        string file = Path.Combine(Path.GetTempPath(), Path.GetRandomFileName());
+        File.WriteAllText(file, """{"format": "kinefab.scene", "version": "1.0", "gameObjects": [{"id": "a"}]}""");
+        try
+        {
+            Assert.That(Failure(file, constraint), Does.Contain($"Expected: {constraint.Description}").And.Contain($"But was:  1 error in {file}").And.Contain("/gameObjects/0").And.Contain("line 1"));
+        }
+        finally
+        {
+            File.Delete(file);
+        }
+    }
+
+    [TestCaseSource(nameof(All))]
+    public void AnyConstraint_OfNoFile_FailsWithItsName(Constraint constraint) =>
+        Assert.That(Failure("no_such.kinefab", constraint), Does.Contain("But was:  1 error in no_such.kinefab").And.Contain("SCENE_NOT_FOUND"));
 
     [Test]
     public void ValidScene_OfSomethingElse_IsAWrongCall() => Assert.That(() => SceneConstraints.Valid.ApplyTo(3), Throws.ArgumentException);
@@ -109,13 +129,35 @@ public sealed class ConstraintTests
         {
             Assert.That(Failure(Lever, Matches.Trajectory(file)), Does.Contain("Lever/BarC:1 is off by").And.Contain(" at 0"));
             File.WriteAllText(file, "{}");
-            Assert.That(() => Matches.Trajectory(file).ApplyTo(Lever), Throws.TypeOf<InvalidDataException>().With.Message.Contains("no trajectory"));
+            Assert.That(Failure(Lever, Matches.Trajectory(file)), Does.Contain($"But was:  {file} is no trajectory of dotnet kinefab: "));
+            File.WriteAllText(file, text.Replace("Lever/BarC:1", "Lever/Rod", System.StringComparison.Ordinal));
+            Assert.That(Failure(Lever, Matches.Trajectory(file)), Does.Contain($"But was:  {file} is of another scene: this one has no Lever/Rod"));
+            File.WriteAllText(file, System.Text.RegularExpressions.Regex.Replace(text, "\"component\": *[0-9]+", "\"component\":77"));
+            Assert.That(Failure(Lever, Matches.Trajectory(file)), Does.Contain($"{Crank}[77] has no Angle to drive in this scene"));
         }
         finally
         {
             File.Delete(file);
         }
     }
+
+    [Test]
+    public void Trajectory_WithoutItsFile_FailsAndSaysHowItIsRecorded()
+    {
+        Assert.That(Failure(Lever, Matches.Trajectory("nope.json")), Does.Contain("But was:  there is no file nope.json").And.Contain("dotnet kinefab sweep").And.Not.Contain("   at "));
+        Assert.That(Failure(Lever, Matches.Trajectory(Root)), Does.Contain($"But was:  {Root} cannot be read"));
+    }
+
+    [Test]
+    public void Numbers_ThatNoTestCanBeMadeWith_AreToldWithTheRule()
+    {
+        Assert.That(() => Keeps.Energy.For(seconds: -10), Throws.InstanceOf<System.ArgumentOutOfRangeException>().With.Message.Contains("seconds above 0").And.Message.Contains("-10"));
+        Assert.That(() => Keeps.Energy.Within(-1), Throws.InstanceOf<System.ArgumentOutOfRangeException>().With.Message.Contains("0 or more"));
+        Assert.That(() => Closes.Within(double.NaN), Throws.InstanceOf<System.ArgumentOutOfRangeException>().With.Message.Contains("0 or more"));
+        Assert.That(() => Drives(Crank).Steps(0), Throws.InstanceOf<System.ArgumentOutOfRangeException>().With.Message.Contains("1 step or more"));
+    }
+
+    private static Constraint[] All() => [SceneConstraints.Valid, SceneConstraints.Mobility(1), Drives(Crank), Closes.Within(1e-9), Keeps.Energy.Within(1), Matches.Trajectory(Motion)];
 
     private static string Failure<T>(T actual, Constraint constraint)
     {

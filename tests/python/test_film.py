@@ -44,6 +44,54 @@ def test_fragments_cover_just_the_pixels_whose_middle_is_inside():
     assert found.depth == pytest.approx((x + 0.5 - 10) / 20 + 2 * (y + 0.5 - 10) / 20)
 
 
+def covered(flat, width, height):
+    """Triangle by triangle: the pixels of the box around it whose weights are none below zero."""
+    found = []
+    for number, corners in enumerate(flat):
+        edge_u, edge_v = corners[1] - corners[0], corners[2] - corners[0]
+        twice = edge_u[0] * edge_v[1] - edge_u[1] * edge_v[0]
+        if abs(twice) > 1e-9:
+            y, x = np.mgrid[:height, :width]
+            away_x, away_y = x + 0.5 - corners[0, 0], y + 0.5 - corners[0, 1]
+            b = (away_x * edge_v[1] - away_y * edge_v[0]) / twice
+            c = (edge_u[0] * away_y - edge_u[1] * away_x) / twice
+            box = np.all(np.stack([x, y]) >= np.ceil(corners.min(axis=0) - 0.5)[:, None, None], axis=0)
+            box &= np.all(np.stack([x, y]) <= np.floor(corners.max(axis=0) - 0.5)[:, None, None], axis=0)
+            inside = box & (b >= -1e-9) & (c >= -1e-9) & (b + c <= 1.0 + 1e-9)
+            pixels = np.flatnonzero(inside)
+            found += zip([number] * len(pixels), pixels.tolist(), b[inside].tolist(), c[inside].tolist())
+    return found
+
+
+@pytest.mark.parametrize("kind", ["any", "thin", "flat", "on the grid", "beyond"])
+def test_lines_of_pixels_are_tried_where_the_triangle_is_and_none_is_missed(kind):
+    """The same pixels in the same order as by the whole box around each, with the same bits, also where rounding decides."""
+    random = np.random.default_rng(7)
+    flat = random.uniform(-6.0, 46.0, (150, 3, 2))
+    if kind == "thin":
+        share = random.uniform(size=(150, 1))
+        flat[:, 2] = flat[:, 0] + share * (flat[:, 1] - flat[:, 0]) + random.normal(size=(150, 2)) * 1e-2
+        flat[75:, 2] += random.normal(size=(75, 2)) * 1e-7 - (flat[75:, 2] - flat[75:, 0]) * 0.5
+    elif kind == "flat":
+        flat[:, 1, 1] = flat[:, 0, 1] + random.choice([0.0, 1e-14, 1e-9, 1e-6], 150)
+    elif kind == "on the grid":
+        flat = np.round(flat * 2.0) / 2.0
+    elif kind == "beyond":
+        flat *= 1e5
+    pieces = list(fragments(flat, np.zeros((150, 3)), 40, 36))
+    got = [
+        entry
+        for piece in pieces
+        for entry in zip(
+            piece.triangle.tolist(),
+            piece.pixel.tolist(),
+            piece.weight[:, 1].tolist(),
+            piece.weight[:, 2].tolist(),
+        )
+    ]
+    assert got == covered(flat, 40, 36) and len(got) > 5
+
+
 def test_what_is_nearer_is_drawn_later_whatever_its_middle():
     """A long plate, near at one end: by the middles it would go behind what it covers."""
     small, plate = square(0.0, 0.3), square(0.0, 1.0)
@@ -143,7 +191,7 @@ def test_a_slide_without_ends_goes_as_far_as_what_is_seen_is_long(monkeypatch, l
     scene.add_slider(bed, ram, point=(0, 0, 0), axis=(1, 0, 0), name="Slide")
     places: list[list[float]] = []
 
-    def heard(document, buffers, frames):
+    def heard(document, buffers, frames, progress):
         places.extend([position for _, position, _ in frame] for frame in frames)
         return []
 

@@ -79,6 +79,15 @@ def test_a_bar_is_shown_on_a_terminal_and_never_in_a_pipe(tmp_path, command):
     assert not BAR.search(on_terminal("--quiet", command, LEVER, "-o", again))
 
 
+def test_a_moving_picture_shows_how_far_it_is(tmp_path):
+    """It takes seconds, in which nothing was shown."""
+    shown = on_terminal("draw", LEVER, "--motion", "-o", tmp_path / "lever.svg")
+    assert BAR.search(shown) and "drawing" in shown
+    done = run("draw", LEVER, "--motion", "-o", tmp_path / "piped.svg", FORCE_COLOR="1")
+    assert done.returncode == 0 and not BAR.search(done.stdout + done.stderr)
+    assert (tmp_path / "piped.svg").read_bytes() == (tmp_path / "lever.svg").read_bytes()
+
+
 def test_letters_that_a_terminal_has_not_are_escaped(tmp_path):
     scene = lid_scene()
     path = kinefab.export(scene, tmp_path / "a.kinefab").path

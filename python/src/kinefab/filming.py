@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from functools import partial
 from pathlib import Path
 
 import numpy as np
@@ -12,6 +13,7 @@ from .diagnostics import KinefabError, Report, diagnostic
 from .mechanism import Mechanism, Trajectory, mechanism_of
 from .model import Scene
 from .options import ExportOptions
+from .pipeline import Progress, silent
 from .showing import read_document, title_of
 from .spatial import Array, Pose, matrix_from_quaternion
 from .unity import frames
@@ -32,9 +34,10 @@ def film(
     joint: str | None = None,
     options: ExportOptions = ExportOptions(),
     found: Report | None = None,
+    progress: Progress = silent,
 ) -> bytes:
     """The picture's file.  ending: one of ``ENDINGS``; a ``.png`` is still.  joint: what is driven; the first freedom.
-    options: what the source is exported with.  found: takes what that found.
+    options: what the source is exported with.  found: takes what that found.  progress: told how far the drawing is.
 
     Raises KinefabError when the data is wrong or a library is missing, ValueError for a joint that is none.
     """
@@ -46,9 +49,12 @@ def film(
     still = ending == ".png" or not mechanism.freedoms
     motion = None
     if not still:
+        progress("moving", 0.0)
         motion = there_and_back(mechanism, joint or mechanism.freedoms[0].name, span_of(document))
+        progress("moving", 1.0)
     with unsound_as_finding(Path("a scene" if isinstance(source, Scene) else source)):
-        images = pictures(document, buffers, _placements(back, motion))
+        drawing = partial(progress, "drawing")
+        images = pictures(document, buffers, _placements(back, motion), drawing)
     return writer(images, title_of(document, source))
 
 

@@ -13,7 +13,7 @@ from ..diagnostics import KinefabError, Report
 from ..options import ExportOptions, Ground
 from ..sources import source_options
 from .asking import asking
-from .console import demand_ending, fail, remark, tell, write
+from .console import demand_ending, fail, progress_bar, remark, tell, write
 from .declared import AS_JSON
 
 SOURCE: Path = typer.Argument(..., help="Scene or assembly: NAME.kinefab or any source.", show_default=False)
@@ -50,7 +50,8 @@ def draw(
         else:
             from ..filming import film
 
-            content = film(file, ending, joint, options, found)
+            with progress_bar() as progress:
+                content = film(file, ending, joint, options, found, progress)
     except ValueError as error:
         raise typer.BadParameter(str(error), param_hint="--joint") from None
     except KinefabError as error:

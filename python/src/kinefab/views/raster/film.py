@@ -30,9 +30,15 @@ Writer = Callable[[Sequence[np.ndarray], str], bytes]
 
 
 def pictures(
-    document: Entry, buffers: Sequence[bytes], frames: Sequence[Sequence[Placement]]
+    document: Entry,
+    buffers: Sequence[bytes],
+    frames: Sequence[Sequence[Placement]],
+    progress: Callable[[float], None] = lambda fraction: None,
 ) -> list[np.ndarray]:
-    """The pixels of each frame, shape (height, width, 3).  frames: the placement of every GameObject, in Unity's world."""
+    """The pixels of each frame, shape (height, width, 3).  frames: the placement of every GameObject, in Unity's world.
+
+    progress: called with the part of the frames that is drawn, 0 to 1.
+    """
     objects: Sequence[Entry] = document["gameObjects"]
     # At their scales, which no motion changes.
     seen = shapes(document, buffers, frames[0], MOST_TRIANGLES)
@@ -62,6 +68,7 @@ def pictures(
             for stroke in strokes_of(joint, (WIDTH - 60) / view.scale):
                 canvas.stroke(stroke, _rgb(COLOURS[joint.kind]))
         found.append(canvas.pixels())
+        progress(len(found) / len(frames))
     return found
 
 

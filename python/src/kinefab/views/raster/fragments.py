@@ -10,7 +10,9 @@ import numpy as np
 from ...spatial import Array, IntArray
 
 MOST = 2_000_000
-"""Pixels tried at a time."""
+"""Pixels tried at a time, of the boxes around the triangles."""
+FAR = 1e9
+"""Columns; beyond every picture."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -40,10 +42,12 @@ def fragments(flat: Array, depth: Array, width: int, height: int) -> Iterator[Fr
     for chosen in np.split(some, np.unique(ends)):
         if not len(chosen):
             continue
-        of = np.repeat(chosen, area[chosen])
-        starts = np.concatenate([[0], np.cumsum(area[chosen])[:-1]])
-        at = np.arange(len(of)) - np.repeat(starts, area[chosen])
-        x, y = low[of, 0] + at % size[of, 0], low[of, 1] + at // size[of, 0]
+        row = np.repeat(chosen, size[chosen, 1])
+        height_of = low[row, 1] + _counted(size[chosen, 1])
+        left, right = _ends(flat[row], height_of + 0.5, twice[row])
+        left, right = np.maximum(left, low[row, 0]), np.minimum(right, high[row, 0])
+        long = np.maximum(right - left + 1, 0)
+        of, x, y = np.repeat(row, long), np.repeat(left, long) + _counted(long), np.repeat(height_of, long)
         away_x, away_y = x + 0.5 - flat[of, 0, 0], y + 0.5 - flat[of, 0, 1]
         b = (away_x * edge_v[of, 1] - away_y * edge_v[of, 0]) / twice[of]
         c = (edge_u[of, 0] * away_y - edge_u[of, 1] * away_x) / twice[of]
@@ -52,6 +56,31 @@ def fragments(flat: Array, depth: Array, width: int, height: int) -> Iterator[Fr
         weight = np.stack([1.0 - b - c, b, c], axis=1)
         near = np.einsum("ni,ni->n", weight, depth[of])
         yield Fragments(y[inside] * width + x[inside], near, of, weight)
+
+
+def _counted(lengths: IntArray) -> IntArray:
+    """0, 1, 2 ... for each of the lengths, one after the other."""
+    return np.arange(int(lengths.sum())) - np.repeat(np.cumsum(lengths) - lengths, lengths)
+
+
+def _ends(flat: Array, y: Array, twice: Array) -> tuple[IntArray, IntArray]:
+    """The first and the last column in which a triangle can cover a pixel of a line, one more to each side than it does.
+
+    A long thin triangle that lies aslant covers one in thirty of the pixels of the box around it.  flat: (n, 3, 2), of each
+    line its triangle.  y: of the line.  twice: its area, doubled, with its sign; of one that is next to nothing, and by a
+    side that runs along the line, no column is left out, since rounding decides there.
+    """
+    first, last = np.full(len(y), -FAR), np.full(len(y), FAR)
+    for i in range(3):
+        start, along = flat[:, i], flat[:, (i + 1) % 3] - flat[:, i]
+        decides = (np.abs(along[:, 1]) > 1e-6) & (np.abs(twice) > 1e-3)
+        rise = np.where(decides, along[:, 1], 1.0)
+        crossed = start[:, 0] + (y - start[:, 1]) * along[:, 0] / rise
+        inward = rise * twice < 0.0
+        first = np.where(decides & inward, np.maximum(first, crossed), first)
+        last = np.where(decides & ~inward, np.minimum(last, crossed), last)
+    first, last = np.clip(first, -FAR, FAR), np.clip(last, -FAR, FAR)
+    return np.floor(first - 0.5).astype(np.int64) - 1, np.ceil(last - 0.5).astype(np.int64) + 1
 
 
 def nearest_last(flat: Array, depth: Array, width: int, height: int, same: float) -> IntArray:

@@ -5,6 +5,7 @@ from __future__ import annotations
 import struct
 import zlib
 from collections.abc import Sequence
+from functools import reduce
 from typing import cast
 
 import numpy as np
@@ -104,13 +105,15 @@ class Canvas:
                 if hidden:
                     pixel = pixel[depth[inside] + bias >= self.depth[pixel]]
                 painted[pixel] = True
-        self.colour[painted] = (1.0 - alpha) * self.colour[painted] + alpha * colour
+        at = np.flatnonzero(painted)
+        self.colour[at] = (1.0 - alpha) * self.colour[at] + alpha * colour
 
     def pixels(self) -> np.ndarray:
         """The finished picture, shape (height, width, 3), 8 bits."""
-        fine = self.colour.reshape(self.height // FINER, FINER, self.width // FINER, FINER, 3).mean(
-            axis=(1, 3)
-        )
+        each = self.colour.reshape(self.height // FINER, FINER, self.width // FINER, FINER, 3)
+        # Added one after the other: numpy's mean over two axes takes twice the time.
+        parts = [each[:, row, :, column] for row in range(FINER) for column in range(FINER)]
+        fine: Array = reduce(np.add, parts) / FINER**2
         whole = cast("Array", np.round(255.0 * np.clip(fine, 0.0, 1.0)))
         return whole.astype(np.uint8)
 

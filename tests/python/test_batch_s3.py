@@ -10,7 +10,7 @@ import kinefab
 import pytest
 
 pytest.importorskip("moto", reason="the Python package moto is not installed")
-pytest.importorskip("flask", reason="moto's server is not installed: pip install kinefab[dev-s3]")
+pytest.importorskip("flask", reason="moto's server is not installed: pip install moto[s3] flask flask-cors")
 s3fs = pytest.importorskip("s3fs", reason="the Python package s3fs is not installed")
 
 FIXTURES = Path(__file__).resolve().parents[2] / "fixtures"

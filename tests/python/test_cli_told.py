@@ -73,7 +73,7 @@ def test_mates_of_a_file_with_joints_of_its_own(tmp_path: Path):
 
 
 def test_mates_say_what_comes_next(tmp_path: Path):
-    pytest.importorskip("OCP", reason="OCP is not installed (kinefab[cad] has it)")
+    pytest.importorskip("OCP", reason="OCP is not installed: pip install cadquery-ocp-novtk")
     target = tmp_path / "lever.mates.json"
     done = run("mates", FIXTURES / "lever" / "lever.step", "-o", target)
     assert done.stdout.split("\n")[0].split() == ["no", "conf", "joint", "parts", "seen"]

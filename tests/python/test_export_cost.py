@@ -13,7 +13,7 @@ import numpy as np
 import pytest
 import trimesh
 from kinefab import pipeline
-from kinefab.collector import collector_paused
+from kinefab.analysis.collector import collector_paused
 from kinefab.diagnostics import Report
 from kinefab.geometry import closure, hulls, loading, mass, weighing
 from kinefab.geometry.contact import cuts, decomposition

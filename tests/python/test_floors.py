@@ -13,7 +13,7 @@ PACKAGE = Path(__file__).resolve().parents[2] / "python" / "src" / "kinefab"
 
 FLOORS: dict[str, list[set[str]]] = {
     "": [
-        {"spatial", "color", "diagnostics", "options", "replacing", "collector"},
+        {"spatial", "color", "diagnostics", "extras", "options", "replacing"},
         {"model", "partition"},
         {"geometry", "rigid", "findings"},
         {"sources", "analysis", "unity"},
@@ -34,7 +34,7 @@ FLOORS: dict[str, list[set[str]]] = {
         {"__init__"},
     ],
     "analysis": [
-        {"equations"},
+        {"equations", "collector"},
         {"freedom"},
         {"pairs"},
         {"assembly"},

@@ -324,7 +324,7 @@ def test_missing_and_unknown_files_are_diagnostics(tmp_path):
     ):
         _, report = load(tmp_path / name, "A")
         assert [d.code for d in report.diagnostics] == [code]
-    assert "kinefab[cad]" in report.diagnostics[0].remedy
+    assert "pip install cadquery-ocp-novtk" in report.diagnostics[0].remedy
 
 
 def test_body_that_is_not_in_the_file_lists_near_names(tmp_path):

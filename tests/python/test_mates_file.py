@@ -16,7 +16,7 @@ from kinefab.mates.mates_file import text
 from kinefab.model import ConstraintKind, Node, Scene
 from kinefab.sources import read
 
-pytest.importorskip("OCP", reason="OpenCASCADE is not installed: pip install kinefab[cad]")
+pytest.importorskip("OCP", reason="OpenCASCADE is not installed: pip install cadquery-ocp-novtk")
 
 LEVER = Path(__file__).resolve().parents[2] / "fixtures" / "lever" / "lever.step"
 

@@ -14,7 +14,7 @@ from kinefab.model import RX
 from kinefab.sources import read
 from kinefab.spatial import rotation_log
 
-pytest.importorskip("OCP", reason="OpenCASCADE is not installed: pip install kinefab[cad]")
+pytest.importorskip("OCP", reason="OpenCASCADE is not installed: pip install cadquery-ocp-novtk")
 
 ROOT = Path(__file__).resolve().parents[2]
 sys.path[:0] = [str(ROOT / "fixtures"), str(ROOT / "python" / "bench")]

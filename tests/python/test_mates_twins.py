@@ -12,7 +12,7 @@ from kinefab.mates.find import find_mates
 from kinefab.mates.mate import AUTO
 from kinefab.sources import read
 
-pytest.importorskip("OCP", reason="OpenCASCADE is not installed: pip install kinefab[cad]")
+pytest.importorskip("OCP", reason="OpenCASCADE is not installed: pip install cadquery-ocp-novtk")
 
 FIXTURES = Path(__file__).resolve().parents[2] / "fixtures"
 sys.path[:0] = [str(FIXTURES), str(FIXTURES.parent / "python" / "bench")]

@@ -277,7 +277,7 @@ def test_a_linked_file_may_be_spelled_with_other_capitals(tmp_path):
 
 
 def test_a_density_is_taken_where_the_document_holds_one(tmp_path):
-    pytest.importorskip("OCP", reason="OpenCASCADE is not installed: pip install kinefab[cad]")
+    pytest.importorskip("OCP", reason="OpenCASCADE is not installed: pip install cadquery-ocp-novtk")
     with zipfile.ZipFile(FIXTURES / "freecad" / "revolute.FCStd") as file:
         brep = file.read("Base.Shape.brp")
     steel = (
@@ -295,7 +295,7 @@ def test_a_density_is_taken_where_the_document_holds_one(tmp_path):
 def test_colours_are_those_of_the_screen_in_linear_light(levers):
     """The lever's steel, 0.62 0.64 0.67 on the screen."""
     if not levers[0].surfaces:
-        pytest.skip("OpenCASCADE is not installed: pip install kinefab[cad]")
+        pytest.skip("OpenCASCADE is not installed: pip install cadquery-ocp-novtk")
     colours = {surface.name: surface.color for surface in levers[0].surfaces}
     assert colours.keys() == {"#404247", "#9EA3AB", "#C79E45", "#0D0D0D"}
     assert colours["#9EA3AB"][:3] == pytest.approx([0.342, 0.367, 0.407], abs=2e-3)
@@ -310,14 +310,14 @@ def test_without_opencascade_the_mechanism_is_read(monkeypatch):
     assert len(scene.joints) == 4 and not scene.meshes
     assert [d.code for d in report.diagnostics] == [
         "SHAPE_NOT_READ"
-    ] and "kinefab[cad]" in report.diagnostics[0].message
+    ] and "pip install cadquery-ocp-novtk" in report.diagnostics[0].message
     scene, report = read(FIXTURES / "freecad" / "distance_cylinders.FCStd")
     assert "FREECAD_JOINT_DROPPED" in [d.code for d in report.diagnostics] and not scene.constraints
 
 
 def test_a_tolerance_may_be_asked_for():
     """Finer by --tolerance, and another word is refused as with every B-rep format."""
-    pytest.importorskip("OCP", reason="OpenCASCADE is not installed: pip install kinefab[cad]")
+    pytest.importorskip("OCP", reason="OpenCASCADE is not installed: pip install cadquery-ocp-novtk")
     path, counts = FIXTURES / "freecad" / "revolute.FCStd", []
     for asked in ("0.5", "0.01,5"):
         scene = sources.read(path, Report(), options={"tolerance": asked})
@@ -345,7 +345,7 @@ def test_the_levers_asmt_has_its_motion(levers):
 def test_a_material_of_the_library_and_a_mesh_are_told(tmp_path):
     """The library's densities are not in the file: those of common materials are taken, and told; a mesh's points are in no
     form that is read.  A material is told once."""
-    pytest.importorskip("OCP", reason="OpenCASCADE is not installed: pip install kinefab[cad]")
+    pytest.importorskip("OCP", reason="OpenCASCADE is not installed: pip install cadquery-ocp-novtk")
     with zipfile.ZipFile(FIXTURES / "freecad" / "revolute.FCStd") as file:
         brep = file.read("Base.Shape.brp")
 
@@ -506,7 +506,7 @@ def test_elements_of_an_array_of_parts_move_and_their_joints_stand_where_freecad
 
 
 def test_a_link_to_an_array_shows_all_of_its_elements(tmp_path):
-    pytest.importorskip("OCP", reason="OpenCASCADE is not installed: pip install kinefab[cad]")
+    pytest.importorskip("OCP", reason="OpenCASCADE is not installed: pip install cadquery-ocp-novtk")
     again = ("App::Link", {"LinkedObject": link("Row"), "Placement": placement(y=300.0)})
     inside, outside = grid(Again=again)
     (tmp_path / "a.FCStd").write_bytes(with_brep(assembly(inside, {}, **outside)))

@@ -93,7 +93,7 @@ def test_mutations_of_the_zip(tmp_path):
 
 def test_mutations_of_the_shapes(tmp_path):
     """OpenCASCADE may crash over them, in its own process; the mechanism is read all the same."""
-    pytest.importorskip("OCP", reason="OpenCASCADE is not installed: pip install kinefab[cad]")
+    pytest.importorskip("OCP", reason="OpenCASCADE is not installed: pip install cadquery-ocp-novtk")
     given, chance = members("revolute.FCStd"), random.Random(3)
     for _ in range(max(10, MUTATIONS // 10)):
         changed = {**given, "Arm.Shape.brp": damaged(given["Arm.Shape.brp"], chance)}

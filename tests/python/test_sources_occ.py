@@ -10,7 +10,7 @@ from kinefab.geometry.closure import is_closed, welded
 from kinefab.geometry.mass import solid_properties
 from kinefab.sources.occ.triangles import Tolerance, mesh_of
 
-pytest.importorskip("OCP", reason="OpenCASCADE is not installed: pip install kinefab[cad]")
+pytest.importorskip("OCP", reason="OpenCASCADE is not installed: pip install cadquery-ocp-novtk")
 
 from kinefab.sources.occ.tessellation import faces_of, tessellate  # noqa: E402
 from OCP.BRep import BRep_Builder  # noqa: E402

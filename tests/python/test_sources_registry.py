@@ -19,13 +19,13 @@ def test_an_option_that_the_format_does_not_have_is_told_and_left_out():
     assert "--package-path" in found.message and "CAD bundle" in found.message
 
 
-def test_a_library_that_is_missing_is_named_with_the_extra_that_installs_it(monkeypatch, tmp_path):
-    made = Format("Toy", (".toy",), "bundle.reader", requires=("no_such_library",), extra="toy")
+def test_a_library_that_is_missing_is_named_with_what_installs_it(monkeypatch, tmp_path):
+    made = Format("Toy", (".toy",), "bundle.reader", requires=("no_such_library",), extra="urdf")
     monkeypatch.setattr(registry, "FORMATS", (*FORMATS, made))
     with pytest.raises(KinefabError) as caught:
         read(tmp_path / "machine.toy", Report())
     (found,) = caught.value.diagnostics
-    assert found.code == "SOURCE_LIBRARY_MISSING" and "kinefab[toy]" in found.remedy
+    assert found.code == "SOURCE_LIBRARY_MISSING" and found.remedy == "Install it: pip install xacro pycollada."
 
 
 def test_options_of_one_name_are_one():

@@ -324,7 +324,7 @@ def test_the_words_of_the_writer_decide_units(tmp_path):
 
 def test_a_step_file_of_a_part_has_its_own_unit(tmp_path):
     """An inch file, where the XML is in metres: the plate is two inches long."""
-    pytest.importorskip("OCP", reason="OpenCASCADE is not installed: pip install kinefab[cad]")
+    pytest.importorskip("OCP", reason="OpenCASCADE is not installed: pip install cadquery-ocp-novtk")
     (tmp_path / "plate.step").write_bytes((FIXTURES / "step" / "two_plates_inch_ap242.step").read_bytes())
     part = '<Part name="Arm" uid="Arm*"><GeometryFile name="plate.step" type="STEP"/></Part>'
     scene = kinefab.export(document(tmp_path, parts=part), tmp_path / "a.kinefab").analysed.scene

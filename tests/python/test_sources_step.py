@@ -25,7 +25,7 @@ from kinefab.sources.step.iges.unit import metres_of
 from kinefab.sources.step.part21 import Part21
 from kinefab.sources.step.records import Begun
 
-pytest.importorskip("OCP", reason="OpenCASCADE is not installed: pip install kinefab[cad]")
+pytest.importorskip("OCP", reason="OpenCASCADE is not installed: pip install cadquery-ocp-novtk")
 
 FIXTURES = Path(__file__).resolve().parents[2] / "fixtures"
 sys.path.insert(0, str(FIXTURES))

@@ -22,7 +22,7 @@ from kinefab.sources.step.part21 import Part21
 from source_bundles import FIXTURES
 from test_sources_freecad_bad_input import damaged
 
-pytest.importorskip("OCP", reason="OpenCASCADE is not installed: pip install kinefab[cad]")
+pytest.importorskip("OCP", reason="OpenCASCADE is not installed: pip install cadquery-ocp-novtk")
 sys.path.insert(0, str(FIXTURES))
 
 from step.kinematics import Link, Pair, with_mechanism  # noqa: E402

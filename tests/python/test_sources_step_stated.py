@@ -15,7 +15,7 @@ from kinefab.model import Scene
 from kinefab.sources import read
 from kinefab.sources.step.entities import parsed
 
-pytest.importorskip("OCP", reason="OpenCASCADE is not installed: pip install kinefab[cad]")
+pytest.importorskip("OCP", reason="OpenCASCADE is not installed: pip install cadquery-ocp-novtk")
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "fixtures"))
 

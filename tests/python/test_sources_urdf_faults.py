@@ -337,7 +337,7 @@ def test_xacro_without_its_package_is_an_error_that_names_it(tmp_path, monkeypat
     with pytest.raises(KinefabError) as refused:
         read(path, Report())
     (found,) = refused.value.diagnostics
-    assert found.code == "SOURCE_LIBRARY_MISSING" and "xacro" in found.message and "urdf" in found.remedy
+    assert found.code == "SOURCE_LIBRARY_MISSING" and "xacro" in found.message and "pip install xacro" in found.remedy
 
 
 def test_a_xacro_that_fails_says_why(tmp_path):

@@ -348,7 +348,7 @@ def test_a_slerp_drive_on_less_than_a_ball_is_told(tmp_path):
 def test_a_target_that_needs_a_library_and_options_of_others_are_told(tmp_path, monkeypatch):
     import kinefab.targets as targets
 
-    made = targets.Target("Toy", (".toy",), "kinefab_file", requires=("no_such_library",), extra="toy")
+    made = targets.Target("Toy", (".toy",), "kinefab_file", requires=("no_such_library",), extra="usd")
     monkeypatch.setattr(targets, "TARGETS", (*targets.TARGETS, made))
     with pytest.raises(kinefab.KinefabError) as caught:
         kinefab.export(arm(), tmp_path / "x.toy")

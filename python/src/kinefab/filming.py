@@ -10,6 +10,7 @@ import numpy as np
 
 from .analysis import analyse
 from .diagnostics import KinefabError, Report, diagnostic
+from .extras import install
 from .mechanism import Mechanism, Trajectory, mechanism_of
 from .model import Scene
 from .options import ExportOptions
@@ -74,7 +75,7 @@ def _writer(ending: str) -> Writer:
     try:
         return by_pillow(ending[1:])
     except ImportError as error:
-        values = {"target": ending[1:].upper(), "library": "Pillow", "extra": "picture"}
+        values = {"target": ending[1:].upper(), "library": "Pillow", "install": install("picture")}
         raise KinefabError([diagnostic("TARGET_LIBRARY_MISSING", **values)]) from error
 
 

@@ -14,11 +14,11 @@ from pathlib import Path
 from typing import Any, cast
 
 from .analysis import Analysis, AnalysisOptions, analyse
+from .analysis.collector import collector_paused
 from .analysis.findings.reasons import holding
 from .analysis.findings.summary import scene_entry
 from .analysis.joints.dof_records import joints_of_dof_records
 from .analysis.joints.stated_limits import check_limits
-from .collector import collector_paused
 from .diagnostics import KinefabError, Report, named
 from .geometry.collision import collision_meshes
 from .geometry.contact.helping import with_helpers

@@ -7,7 +7,6 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from ..collector import collector_paused
 from ..diagnostics import Report, named
 from ..findings import JointFinding
 from ..model import Coupling, Joint, Scene
@@ -15,6 +14,7 @@ from ..options import Closures
 from ..rigid import is_rigid, rigid_groups
 from .assembly.assemble import Assembly, assemble
 from .assembly.bases import built_together
+from .collector import collector_paused
 from .couplings.rehanging import rehung
 from .couplings.standing import without_standing
 from .couplings.stated import couplings_of

@@ -10,6 +10,7 @@ from contextlib import contextmanager
 from typing import Any, cast
 
 from ..diagnostics import KinefabError, diagnostic
+from ..extras import install
 
 CONNECT_SECONDS = 10
 TRIES = 3
@@ -29,9 +30,8 @@ def executor_of(scheduler: str | None) -> Generator[Executor | None, None, None]
     try:
         from distributed import Client
     except ImportError:
-        raise _unusable(
-            scheduler, 'the Python package distributed is not installed (pip install "kinefab[cluster]")'
-        ) from None
+        told = f"the Python package distributed is not installed ({install('cluster')})"
+        raise _unusable(scheduler, told) from None
     client, detail = None, ""
     try:
         with warnings.catch_warnings():

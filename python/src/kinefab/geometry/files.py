@@ -12,6 +12,7 @@ from typing import Any, cast
 import numpy as np
 
 from ..diagnostics import Report
+from ..extras import install
 from ..model import MeshKey, Surface
 from ..spatial import Array
 from .looks.gltf import GltfFile
@@ -38,12 +39,11 @@ _STEP, _MESH = (
     "Open it in its own program and export STEP or STL.",
     "Open it in its own program and export glTF or OBJ.",
 )
-_CAD, _ASSIMP = 'pip install "kinefab[cad]"', 'pip install "kinefab[meshes]"'
 _ADVICE = {
     **dict.fromkeys(
-        (".step", ".stp", ".iges", ".igs", ".wrl", ".vrml"), f"Install OpenCASCADE: {_CAD}; or export STL or OBJ instead."
+        (".step", ".stp", ".iges", ".igs", ".wrl", ".vrml"), f"Install OpenCASCADE: {install('cad')}; or export STL or OBJ instead."
     ),
-    **dict.fromkeys((".3ds", ".fbx", ".x3d"), f"Install assimp: {_ASSIMP}; or export glTF or OBJ instead."),
+    **dict.fromkeys((".3ds", ".fbx", ".x3d"), f"Install assimp: {install('meshes')}; or export glTF or OBJ instead."),
     **dict.fromkeys(
         (".sldprt", ".sldasm", ".ipt", ".iam", ".prt", ".asm", ".catpart", ".catproduct", ".par", ".psm", ".f3d", ".smt",
          ".sat", ".sab", ".x_t", ".x_b", ".jt", ".3dm", ".fcstd", ".brep", ".brp", ".dwg", ".dxf"), _STEP,

@@ -16,6 +16,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any, Protocol, runtime_checkable
 
 from ..diagnostics import Report, is_encodable
+from ..extras import install
 from ..geometry.whole.lfs import is_pointer
 from ..options import FormatOption
 from .mjcf.options import KEYFRAME
@@ -39,7 +40,8 @@ class Format:
     on a higher floor; it has ``read(path, report, request)`` and, where formats share a suffix (``sniffed``),
     ``sniff(head)`` that tells by the first bytes.
     options: what a user may ask of it.  An option that several formats have is one object.
-    requires: modules without which it cannot be read at all.  extra: of the package, that installs them ("" for none).
+    requires: modules without which it cannot be read at all.  extra: of the package, that installs them ("" for none), see
+    ``kinefab.extras``.
     """
 
     name: str
@@ -130,9 +132,8 @@ def read(
         raise AssertionError("an unknown format is an error")
     for name in found.requires:
         if find_spec(name) is None:
-            report.add(
-                "SOURCE_LIBRARY_MISSING", path.name, format=found.name, library=name, extra=found.extra
-            )
+            needed = {"library": name, "install": install(found.extra)}
+            report.add("SOURCE_LIBRARY_MISSING", path.name, format=found.name, **needed)
     if found.requires and not is_encodable(os.path.abspath(path)):
         library = found.requires[0]
         report.add("SOURCE_PATH_NOT_UTF8", path.name, path=path, library=library, format=found.name)

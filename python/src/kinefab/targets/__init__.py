@@ -14,6 +14,7 @@ from importlib.util import find_spec
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from ..extras import install
 from ..options import FormatOption
 
 if TYPE_CHECKING:  # the command line asks for the endings alone, and should not wait for numpy
@@ -25,7 +26,8 @@ if TYPE_CHECKING:  # the command line asks for the endings alone, and should not
 class Target:
     """An output.  endings: lower case, of the file that is named.  module: below this package.
     options: what a user may ask of it; one that several targets have is one object.
-    requires: modules without which it cannot be written.  extra: of the package, that installs them ("" for none)."""
+    requires: modules without which it cannot be written.  extra: of the package, that installs them ("" for none), see
+    ``kinefab.extras``."""
 
     name: str
     endings: tuple[str, ...]
@@ -85,7 +87,7 @@ def check_target(target: Target, options: Mapping[str, Any], report: Report) -> 
     """
     for name in target.requires:
         if find_spec(name) is None:
-            report.add("TARGET_LIBRARY_MISSING", target=target.name, library=name, extra=target.extra)
+            report.add("TARGET_LIBRARY_MISSING", target=target.name, library=name, install=install(target.extra))
     asked = dict(options)
     for name in sorted(asked.keys() - {option.name for option in target.options}):
         report.add("TARGET_OPTION_UNUSED", option=name.replace("_", "-"), target=target.name)

@@ -6,6 +6,7 @@ from collections.abc import Callable
 from dataclasses import replace
 
 from ...diagnostics import Report
+from ...extras import install
 from ...model import Body, Scene
 from ..guard import GuardedCrash, GuardedError, guarded
 from ..occ import EXTRA, available
@@ -16,7 +17,7 @@ from .document import UNIT, Thing
 from .looks import Looks
 from .parts import ShownShape, scene_matrix
 
-NO_LIBRARY = f'OpenCASCADE is not installed: pip install "kinefab[{EXTRA}]"'
+NO_LIBRARY = f"OpenCASCADE is not installed: {install(EXTRA)}"
 BREP = "kinefab.sources.occ.brep"
 SECONDS, SECONDS_PER_MEGABYTE = 120.0, 20.0
 """For the shapes of a document together: two minutes, and more for large ones."""

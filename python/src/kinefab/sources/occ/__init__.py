@@ -1,6 +1,6 @@
 """OpenCASCADE shapes as meshes, for the formats whose geometry is an exact B-rep.
 
-``triangles`` holds what comes out and needs no OpenCASCADE; ``tessellation`` needs it (``pip install "kinefab[cad]"``)
+``triangles`` holds what comes out and needs no OpenCASCADE; ``tessellation`` needs it (the extra ``cad``)
 and is imported where a shape is at hand, after ``available()`` has said that it can be.
 """
 

@@ -17,6 +17,7 @@ from pathlib import Path
 from typing import IO, Any, cast
 
 from ...diagnostics import Report
+from ...extras import install
 from ..guard import GuardedCrash, GuardedError, guarded
 from ..robots.packages import Packages, is_inside
 from ..robots.xml_elements import Element, parse_xml
@@ -56,7 +57,8 @@ def expanded(path: Path, packages: Packages, arguments: Sequence[str], report: R
     arguments: ``name:=value``.  Raises KinefabError.
     """
     if find_spec("xacro") is None:
-        report.add("SOURCE_LIBRARY_MISSING", path.name, format="xacro", library="xacro", extra="urdf")
+        needed = {"library": "xacro", "install": install("urdf")}
+        report.add("SOURCE_LIBRARY_MISSING", path.name, format="xacro", **needed)
         report.raise_for_errors()
     _tell_malformed(arguments, path, report)
     text = b""

@@ -6,6 +6,7 @@ import hashlib
 import io
 from collections.abc import Callable
 
+from ....extras import install
 from ....geometry.looks.pixels import bytes_of, eight_bit, pillow
 from ....model import Texture
 from ....unity.scene import Material
@@ -32,9 +33,8 @@ class Images:
         try:
             pillow()
         except ImportError:
-            raise ImageError(
-                'it has to be repacked, which needs Pillow: pip install "kinefab[picture]"'
-            ) from None
+            told = f"it has to be repacked, which needs Pillow: {install('picture')}"
+            raise ImageError(told) from None
         if ending not in LOADED:
             _once(self._pixels, texture, _decoded)
 

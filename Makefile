@@ -12,7 +12,7 @@ export DOTNET_NOLOGO := 1
 .PHONY: help extras setup tool unity demo test bench docs golden tester-kit clean
 
 help: ## this list
-	@grep -E '^[a-z]+:.*##' $(MAKEFILE_LIST) | sed -E 's/:.*## /\t/' | expand -t 10
+	@grep -E '^[a-z-]+:.*##' $(MAKEFILE_LIST) | sed -E 's/:.*## /\t/' | expand -t 12
 
 # Where the index has none of them, their tests are skips.
 extras: setup ## libraries of single formats (STEP, IGES, FreeCAD's shapes, MuJoCo, S3), and engines to test against

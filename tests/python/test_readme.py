@@ -117,6 +117,20 @@ def test_the_first_screen_says_what_it_is_for_whom_and_what_to_type(tmp_path):
     assert written >= {".unitypackage", ".html"}
 
 
+def test_a_program_is_used_after_it_is_said_how_to_get_it():
+    """Of the second program the quick way and the lasting one, where it is first named; of the packages the way before a release."""
+    paragraph = next(part for part in README.split("\n\n") if "dotnet kinefab" in part)
+    for words in ("`make tool`", "bin/Release/net10.0:$PATH", "command-line.md#install"):
+        assert words in paragraph
+    page = (ROOT / "guides" / "ci.md").read_text("utf-8")
+    assert "using Kinefab.NUnit;\n" in page and "using static Kinefab.NUnit.MechanismConstraints;\n" in page
+    box = page.partition("## Until it is released\n")[2]
+    for words in ("dotnet pack", "packageSources", "dotnet tool install Kinefab.Cli", "-p:Version="):
+        assert words in box
+    tool = (ROOT / "csharp" / "src" / "Kinefab.Cli" / "README.md").read_text("utf-8")
+    assert "--add-source out/pkg" in tool and "-p:Version=" in tool
+
+
 def test_each_reader_has_ten_lines_and_a_link():
     """What is longer stands on the page that is linked; headings, blank lines and fences are not counted."""
     for reader in READERS:

@@ -153,7 +153,7 @@ internal sealed partial class StepController
 
         if (_batch.ActiveSet != null && _batch.ActiveSet.NextResting(0) >= 0)
         {
-            HeldDrives.Wake(_batch, _batch.ActiveSet, _exact, tolerance);
+            HeldDrives.Wake(_batch, _batch.ActiveSet, _exact);
             Return(_start, dt);
         }
 

@@ -316,13 +316,13 @@ internal sealed partial class ActiveSet<V>
     public void Wake(int index) => _rows[index].SlowDown(Math.Max(Awake, _rows[index].FollowedSlowdowns));
 
     /// <summary>Holds the hard limits that are reached where the rows were last built, and nothing else.</summary>
-    /// <param name="tolerance">Largest C, m or rad.</param>
-    public void HoldReached(double tolerance)
+    /// <param name="reach">C up to which a limit counts as reached, m or rad.</param>
+    public void HoldReached(double reach)
     {
         for (int i = 0; i < _rows.Length; i++)
         {
             ref ScalarRow scalar = ref _rows[i];
-            bool isReached = scalar.IsActive && IsHardLimit(scalar.Built) && scalar.Built.GeometricError <= Reach * tolerance;
+            bool isReached = scalar.IsActive && IsHardLimit(scalar.Built) && scalar.Built.GeometricError <= reach;
             scalar.Kind = isReached ? RowKind.Limit : RowKind.None;
             scalar.State = isReached ? RowState.Free : RowState.AtBound;
         }

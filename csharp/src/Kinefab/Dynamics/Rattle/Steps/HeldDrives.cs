@@ -15,6 +15,9 @@ internal static class HeldDrives
     // Of a row's own response: so far from its dead point no lever is built.
     private const double LeastFree = 1e-9;
 
+    // C up to which a limit holds what rests at it, m or rad: what a drive has pressed there gives by ten tolerances when it lets go.
+    private const double StillReached = 1e-6;
+
     // Of the freedom that a drive came to rest with, from which on it goes on.
     private const double MoreFree = 4;
 
@@ -85,12 +88,11 @@ internal static class HeldDrives
     /// <param name="batch">Built at the start pose.</param>
     /// <param name="scalars">Its rows.</param>
     /// <param name="exact">Solves without the matrix's compliance.</param>
-    /// <param name="tolerance">Largest C, m or rad.</param>
-    public static void Wake(LaneBatch<ScalarLane> batch, ActiveSet<ScalarLane> scalars, ConjugateGradient exact, double tolerance)
+    public static void Wake(LaneBatch<ScalarLane> batch, ActiveSet<ScalarLane> scalars, ConjugateGradient exact)
     {
         for (int i = scalars.NextResting(0); i >= 0; i = scalars.NextResting(i + 1))
         {
-            double freedom = Freedom(batch, scalars, exact, i, tolerance), atFirst = scalars.Row(i).RestingFreedom;
+            double freedom = Freedom(batch, scalars, exact, i), atFirst = scalars.Row(i).RestingFreedom;
             if (double.IsNaN(atFirst))
             {
                 scalars.NoteFreedom(i, freedom);
@@ -104,12 +106,12 @@ internal static class HeldDrives
 
     // Of its own bodies' response to an impulse the way that a drive asks for, what joints and reached limits leave when they answer; those that would have
     // to draw let go.
-    private static double Freedom(LaneBatch<ScalarLane> batch, ActiveSet<ScalarLane> scalars, ConjugateGradient exact, int drive, double tolerance)
+    private static double Freedom(LaneBatch<ScalarLane> batch, ActiveSet<ScalarLane> scalars, ConjugateGradient exact, int drive)
     {
         batch.Work.Active[0] = 1;
         double impulse = scalars.Row(drive).Built.VelocityTarget < 0 ? -1 : 1;
         double own = Impulses<ScalarLane>.ResponseOf(batch, scalars.Row(drive).Block, scalars.Row(drive).Built);
-        scalars.HoldReached(tolerance);
+        scalars.HoldReached(StillReached);
         double left;
         do
         {

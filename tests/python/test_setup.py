@@ -38,7 +38,7 @@ def set_up(place: Path, environment: dict[str, str]) -> subprocess.CompletedProc
 def test_help_lists_every_target_that_says_what_it_is():
     makefile = (ROOT / "Makefile").read_text("utf-8")
     told = {line.partition(":")[0] for line in makefile.splitlines() if ":" in line and " ## " in line}
-    done = subprocess.run(["make", "help"], cwd=ROOT, capture_output=True, text=True)
+    done = subprocess.run(["make", "--no-print-directory", "help"], cwd=ROOT, capture_output=True, text=True)
     assert {line.split()[0] for line in done.stdout.splitlines()} == told >= {"demo", "tester-kit"}
 
 

@@ -76,7 +76,10 @@ public abstract class WorldJoint
 
     private protected Pose Pose1 => MultibodySystem.Bodies.PoseOf(Solved.Body1);
 
-    /// <summary>A coordinate of the own body against the connected one, left-hand sense, 0 at start-up; degrees or metres.</summary>
+    /// <summary>
+    /// A coordinate of the own body against the connected one, left-hand sense, 0 at start-up; degrees or metres. Of several free angles each is
+    /// 2 atan2(q_i, q_w) of the relative rotation q: where another comes to half a turn both are near 0, it leaps, and says little.
+    /// </summary>
     /// <param name="coordinate">Which of the joint's six motions.</param>
     /// <returns>Degrees, over any number of turns, or metres.</returns>
     /// <exception cref="ArgumentException">The joint has no such coordinate.</exception>

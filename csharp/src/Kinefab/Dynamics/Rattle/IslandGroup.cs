@@ -41,10 +41,6 @@ internal abstract class IslandGroup
     /// <param name="island">Index in <see cref="Islands"/>.</param>
     public abstract void Exchange(StateTape tape, int island);
 
-    /// <summary>Takes back what the last step of an island only showed, where no other follows here.</summary>
-    /// <param name="island">Index in <see cref="Islands"/>.</param>
-    public abstract void UndoShown(int island);
-
     /// <summary>Tells the mechanism what the last step had to say, and forgets it.</summary>
     public void Report(MultibodySystem mechanism)
     {

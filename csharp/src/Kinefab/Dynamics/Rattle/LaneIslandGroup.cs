@@ -135,15 +135,6 @@ internal sealed class LaneIslandGroup<V> : IslandGroup
         }
     }
 
-    /// <inheritdoc/>
-    public override void UndoShown(int island)
-    {
-        if (_memories.Length > 0)
-        {
-            _memories[island].UndoShown();
-        }
-    }
-
     // Which lanes take part: not those that are cut or turn fast, and not those at limits.
     private void Sort(LaneStep<V> free, int index, double dt, double tolerance)
     {

@@ -202,7 +202,8 @@ internal sealed class RattleSolver : ISolver, IStepParts
         }
     }
 
-    // Islands that are as they were go on as if nothing had been found anew.
+    // Islands that are as they were go on as if nothing had been found anew. What the last step of another only showed of stiff springs' answers stays: a
+    // joint that broke took with it the spring that would give them in the next step.
     private static void CarryOver(List<IslandGroup> from, List<IslandGroup> to)
     {
         var known = new Dictionary<int, (IslandGroup Group, int Island)>();
@@ -225,14 +226,8 @@ internal sealed class RattleSolver : ISolver, IStepParts
                     old.Group.Exchange(tape, old.Island);
                     tape.Play();
                     group.Exchange(tape, i);
-                    known.Remove(body);
                 }
             }
-        }
-
-        foreach ((IslandGroup group, int island) in known.Values)
-        {
-            group.UndoShown(island);
         }
     }
 

@@ -81,7 +81,4 @@ internal sealed class ScalarIslandGroup : IslandGroup
         _corrections[island]?.Exchange(tape);
         tape.Value(ref _histories[island]);
     }
-
-    /// <inheritdoc/>
-    public override void UndoShown(int island) => _corrections[island]?.Undo();
 }

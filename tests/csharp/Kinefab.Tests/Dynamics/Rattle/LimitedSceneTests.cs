@@ -122,6 +122,29 @@ internal sealed class LimitedSceneTests
         }
     }
 
+    /// <summary>
+    /// What a stiff spring answers is shown at a step's end and given in the next; where its joint broke none follows, and what was shown is the motion.
+    /// Taken back it left up to 2.7 % of the energy more.
+    /// </summary>
+    [TestCase(7000123)]
+    [TestCase(7000448)]
+    [TestCase(7000930)]
+    public void Step_JointOfAStiffSpringBreaks_GainsNothing(int seed)
+    {
+        var scene = new LimitedScene(seed);
+        var solver = new RattleSolver(scene.System, new List<InconsistentLoop>());
+        solver.Step(scene.Step);
+        double first = scene.Energy();
+        for (int i = 2; i <= 200; i++)
+        {
+            scene.Drive(i * scene.Step);
+            solver.Step(scene.Step);
+            Assert.That(scene.Energy(), Is.LessThanOrEqualTo(first + 1e-5 * Math.Abs(first)), $"step {i}");
+        }
+
+        Assert.That(Array.Exists(scene.System.Joints, joint => joint.IsBroken));
+    }
+
     /// <summary>The answer of a stiff spring along rows that leave it open was not a number.</summary>
     [Test]
     public void Step_StiffSpringOfOpenRows_ShowsFiniteSpeeds()

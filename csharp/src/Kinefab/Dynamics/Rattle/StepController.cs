@@ -157,10 +157,23 @@ internal sealed partial class StepController
             Return(_start, dt);
         }
 
-        while (!TryEvenParts(dt, halvings, tolerance))
+        while (true)
         {
+            bool isDone = TryEvenParts(dt, halvings, tolerance);
+            if (isDone && (hasLooked || _batch.ActiveSet is not { HasRunAway: true }))
+            {
+                break;
+            }
+
             Return(_start, dt);
             _hasMoved = false;
+            if (isDone)
+            {
+                hasLooked = true;
+                FindHeldDrives(dt);
+                continue;
+            }
+
             bool wasEager = _part.IsEager;
             _part.IsEager = true;
             if (_batch.ActiveSet != null && _batch.ActiveSet.RestOn())

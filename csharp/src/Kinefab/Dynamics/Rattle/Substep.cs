@@ -44,6 +44,7 @@ internal sealed class Substep
     private readonly double[] _guess;
     private readonly bool[] _converged = new bool[1];
     private double _length;
+    private double _part;
     private double _guessLength;
 
     public Substep(LaneBatch<ScalarLane> batch, ConjugateGradient exact)
@@ -101,12 +102,13 @@ internal sealed class Substep
         }
 
         SetLength(h);
+        _part = h;
         scalars.BeginPart();
         double left = h;
         for (int blows = 0; ; blows++)
         {
             scalars.LocatesEvents = blows < MaxBlows;
-            scalars.BeginPiece();
+            scalars.BeginPiece(left);
             _pieceStart.Save(_batch);
             Array.Copy(_batch.VelocityImpulses, _guess, _guess.Length);
             _guessLength = _length;
@@ -250,7 +252,7 @@ internal sealed class Substep
             return true;
         }
 
-        if (isPassedAtOnce && scalars.HoldBack(first, left, HoldsPassedLimits, tolerance))
+        if (isPassedAtOnce && scalars.HoldBack(first, HoldsPassedLimits, piece < LeastFlight * _part, tolerance))
         {
             ReturnToPieceStart(left);
             return TryPiece(left, tolerance, out piece);

@@ -162,6 +162,7 @@ internal sealed partial class ActiveSet<V>
     /// <param name="dt">Step, s.</param>
     public void BeginPace(double dt)
     {
+        HasRunAway = false;
         for (int i = 0; i < _rows.Length; i++)
         {
             ref ScalarRow scalar = ref _rows[i];

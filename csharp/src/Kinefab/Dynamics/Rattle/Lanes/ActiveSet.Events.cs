@@ -62,8 +62,10 @@ internal sealed partial class ActiveSet<V>
     }
 
     /// <summary>A piece of a part begins: no limit is left yet.</summary>
-    public void BeginPiece()
+    /// <param name="left">Longest that it may be, s.</param>
+    public void BeginPiece(double left)
     {
+        _left = left;
         for (int i = 0; i < _rows.Length; i++)
         {
             _rows[i].IsLeft = false;
@@ -76,13 +78,13 @@ internal sealed partial class ActiveSet<V>
     /// drive without limit of force pushes it back at once, or what other rows are open by is more than the way by which it leaves. False where it is another.
     /// </summary>
     /// <param name="index">The row's.</param>
-    /// <param name="left">Longest that the drift may be, s.</param>
     /// <param name="isAny">Whether any hard limit is held so: a joint that is thrown back by a stiff damper, or moved by closing other rows.</param>
+    /// <param name="isSpent">Whether it is passed so soon that a limit which is struck again then is at rest.</param>
     /// <param name="tolerance">Largest C, m or rad.</param>
-    public bool HoldBack(int index, double left, bool isAny, double tolerance)
+    public bool HoldBack(int index, bool isAny, bool isSpent, double tolerance)
     {
         ref ScalarRow scalar = ref _rows[index];
-        bool hardlyLeaves = scalar.StartError <= Reach * tolerance && IsThrownBack(scalar) && (HasEndless() || scalar.StartSpeed * left <= Reach * tolerance);
+        bool hardlyLeaves = scalar.StartError <= Reach * tolerance && IsThrownBack(scalar, tolerance) && (isSpent || HasEndless());
         bool isOne = (isAny || hardlyLeaves) && scalar.IsActive && IsHardLimit(scalar.Built) && !scalar.IsLeft && !scalar.IsHeldBack;
         scalar.IsHeldBack |= isOne;
         return isOne;

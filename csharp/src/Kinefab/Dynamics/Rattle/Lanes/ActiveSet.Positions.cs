@@ -11,6 +11,10 @@ internal sealed partial class ActiveSet<V>
     // Tolerances by which a limit may be passed at the end of a drift.
     private const double MostPassed = 1.01;
 
+    // Of a correction, the share from which on rows that it leads beyond their bounds are held there together.
+    private const double LeastShare = 0.01;
+    private const double MostBeyond = 10;
+
     /// <summary>Residuals of the scalar rows at the end of the drift as errors, m or rad.</summary>
     public void Evaluate(double h)
     {
@@ -34,17 +38,83 @@ internal sealed partial class ActiveSet<V>
         }
     }
 
-    /// <summary>Holds rows at their bounds whose impulses are beyond them; true when one was.</summary>
-    public bool ClampToBounds()
+    /// <summary>
+    /// The share of a move of the drift's impulses that leads to the first bound of a row, where that is a small one: of rows that nearly depend on each
+    /// other, whose impulses grow without end before they agree, one has to give way, and what the move makes of the others is that of its not
+    /// giving way. Elsewhere 1: the rows that are led beyond their bounds give way together.
+    /// </summary>
+    /// <param name="move">Of all rows.</param>
+    /// <param name="first">The row; -1: none.</param>
+    public double ShareOfMove(double[] move, out int first)
+    {
+        double least = LeastShare;
+        first = -1;
+        for (int i = 0; i < _rows.Length; i++)
+        {
+            ref ScalarRow scalar = ref _rows[i];
+            if (scalar.State != RowState.Free || move[scalar.Index] == 0)
+            {
+                continue;
+            }
+
+            double before = _batch.Work.PositionImpulses[scalar.Index];
+            double bound = scalar.Theta * (move[scalar.Index] > 0 ? scalar.High : scalar.Low);
+            double share = Math.Max(0, (bound - before) / move[scalar.Index]);
+            if (share < least)
+            {
+                least = share;
+                first = i;
+            }
+        }
+
+        return first < 0 ? 1 : least;
+    }
+
+    /// <summary>Whether a drive without limit of force that was not slowed down ran away in the step: what holds it is worth a look, see <see cref="HeldDrives"/>.</summary>
+    public bool HasRunAway { get; set; }
+
+    /// <summary>Whether a move leads a drive without limit of force far beyond what no mechanism needs: rows that nearly depend on each other.</summary>
+    /// <param name="move">Of all rows.</param>
+    public bool RunsAway(double[] move)
+    {
+        bool isAny = false;
+        for (int i = 0; i < _rows.Length; i++)
+        {
+            ref ScalarRow scalar = ref _rows[i];
+            double impulse = _batch.Work.PositionImpulses[scalar.Index] + move[scalar.Index];
+            bool isBeyond = impulse > MostBeyond * scalar.Theta * scalar.High || impulse < MostBeyond * scalar.Theta * scalar.Low;
+            if (isBeyond && scalar.State == RowState.Free && scalar.AsksForSpeed && scalar.IsEndless)
+            {
+                isAny = true;
+                HasRunAway |= scalar.Slowdowns == 0;
+            }
+        }
+
+        return isAny;
+    }
+
+    /// <summary>Holds rows at their bounds: the one that a move led to it, or all whose impulses are beyond them; true when one was.</summary>
+    /// <param name="first">The row; -1: all.</param>
+    public bool ClampToBounds(int first)
     {
         bool isChanged = false;
         for (int i = 0; i < _rows.Length; i++)
         {
             ref ScalarRow scalar = ref _rows[i];
             scalar.PendingImpulse = 0;
-            if (scalar.State == RowState.Free)
+            if (scalar.State != RowState.Free)
             {
-                scalar.ImpulseFirstHalf = _batch.Work.PositionImpulses[scalar.Index];
+                continue;
+            }
+
+            scalar.ImpulseFirstHalf = _batch.Work.PositionImpulses[scalar.Index];
+            if (i == first)
+            {
+                HoldAtBound(ref scalar, scalar.ImpulseFirstHalf > scalar.Theta * (scalar.Low + scalar.High) / 2);
+                isChanged = true;
+            }
+            else if (first < 0)
+            {
                 isChanged |= ClampToBounds(ref scalar);
             }
         }
@@ -221,12 +291,17 @@ internal sealed partial class ActiveSet<V>
             return false;
         }
 
+        HoldAtBound(ref scalar, isAbove);
+        return true;
+    }
+
+    private void HoldAtBound(ref ScalarRow scalar, bool isAbove)
+    {
         double impulse = scalar.BoundShare * (isAbove ? scalar.High : scalar.Low);
         scalar.HasDrawn = scalar.Kind == RowKind.Limit;
         scalar.PendingImpulse = impulse - scalar.ImpulseFirstHalf;
         scalar.ImpulseFirstHalf = impulse;
         scalar.State = RowState.AtBound;
         _batch.Work.PositionImpulses[scalar.Index] = impulse;
-        return true;
     }
 }

@@ -29,6 +29,9 @@ internal sealed partial class ActiveSet<V>
     private int _seenCount;
     private bool _movesAll;
 
+    // Longest that the drift may be, s.
+    private double _left = double.PositiveInfinity;
+
     // Whether the projection is that of a blow.
     private bool _isBlow;
 
@@ -73,7 +76,7 @@ internal sealed partial class ActiveSet<V>
             scalar.Kind = scalar.FindKind(SoftReach(scalar, h, tolerance));
             scalar.StartSpeed = scalar.IsActive ? StartSpeed(scalar) : 0;
             scalar.Allowed = scalar.Kind == RowKind.Limit && scalar.StartError < -ScalarRow.MostClosedByDrift ? scalar.StartError : 0;
-            bool isReached = scalar.Allowed < 0 || (!scalar.IsLeft && (scalar.IsHeldBack || (scalar.StartError <= Reach * tolerance && !IsThrownBack(scalar))));
+            bool isReached = scalar.Allowed < 0 || (!scalar.IsLeft && (scalar.IsHeldBack || (scalar.StartError <= Reach * tolerance && !IsThrownBack(scalar, tolerance))));
             scalar.IsApart = LocatesEvents && (!scalar.IsActive || (scalar.Built.Has(RowFlags.Limit) && !isReached));
             scalar.HasDrawn = false;
             scalar.Kind = scalar.IsHeld ? RowKind.None : scalar.Kind;
@@ -331,8 +334,10 @@ internal sealed partial class ActiveSet<V>
     private static bool IsWithin(in ScalarRow scalar, double impulse) =>
         impulse > scalar.Theta * scalar.Low && impulse < scalar.Theta * scalar.High && impulse != scalar.BoundShare * scalar.Low && impulse != scalar.BoundShare * scalar.High;
 
-    // So fast that a joint that comes back to its limit within the drift is thrown back once more; a slower one may as well rest there at its end.
-    private static bool IsThrownBack(in ScalarRow scalar) => scalar.Built.Has(RowFlags.Restitution) && scalar.StartSpeed > scalar.Built.BounceThreshold;
+    // So fast that a joint that comes back to its limit within the drift is thrown back once more; a slower one may as well rest there at its end. What
+    // leaves its limit by less than one that counts as reached may be away, as by rounding, rests there.
+    private bool IsThrownBack(in ScalarRow scalar, double tolerance) =>
+        scalar.Built.Has(RowFlags.Restitution) && scalar.StartSpeed > scalar.Built.BounceThreshold && scalar.StartSpeed * _left > Reach * tolerance;
 
     // Where events are not located, a soft limit that the step will reach acts from its start on, by the pose at its end.
     private double SoftReach(in ScalarRow scalar, double h, double tolerance)

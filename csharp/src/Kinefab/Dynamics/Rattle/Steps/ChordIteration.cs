@@ -70,16 +70,15 @@ internal static class ChordIteration<V>
     }
 
     /// <summary>
-    /// d = -A^-1 C / h, then Anderson's mixing of depth one: with d and the change of d since the last iteration, the share
+    /// The next correction into the move: d = -A^-1 C / h, then Anderson's mixing of depth one: with d and the change of d since the last iteration, the share
     /// of the last move that makes |d| least is taken back. It makes of the chord's linear convergence (|w| h an iteration)
     /// nearly that of Newton's method, for a few inner products. Source: Walker and Ni 2011.
     /// </summary>
     /// <param name="batch">Factored at the start pose, with the errors at the end pose.</param>
     /// <param name="h">Step, s.</param>
     /// <param name="isFirst">Whether no correction of the same matrix went before.</param>
-    /// <param name="impulses">To which the move is added.</param>
     /// <param name="exact">Solves without the matrix's compliance; null: by the factor alone.</param>
-    public static void Correct(LaneBatch<V> batch, double h, bool isFirst, double[] impulses, ConjugateGradient? exact = null)
+    public static void FindMove(LaneBatch<V> batch, double h, bool isFirst, ConjugateGradient? exact = null)
     {
         int w = Lane<V>.Width;
         double[] d = batch.Work.Solution;
@@ -116,15 +115,25 @@ internal static class ChordIteration<V>
 
         Lane<V> most = Lane<V>.Splat(MostMixing);
         Lane<V> share = Lane<V>.Min(most, Lane<V>.Max(Lane<V>.Splat(-MostMixing), product / square));
-        Lane<V> active = Lane<V>.Load(batch.Work.Active, 0);
         for (int i = 0; i < length; i += w)
         {
             Lane<V> now = Lane<V>.Load(d, i);
             Lane<V> step = isFirst ? now : now - share * (Lane<V>.Load(move, i) + (now - Lane<V>.Load(last, i)));
             now.Store(last, i);
             step.Store(move, i);
+        }
+    }
+
+    /// <summary>Adds the move to impulses, in the active lanes, and gives the momenta what they have of it.</summary>
+    public static void Move(LaneBatch<V> batch, double[] impulses)
+    {
+        int w = Lane<V>.Width;
+        double[] move = batch.Work.Move;
+        Lane<V> active = Lane<V>.Load(batch.Work.Active, 0);
+        for (int i = 0; i < batch.Shape.RowCount * w; i += w)
+        {
             Lane<V> sum = Lane<V>.Load(impulses, i);
-            Lane<V>.Select(active, sum + step, sum).Store(impulses, i);
+            Lane<V>.Select(active, sum + Lane<V>.Load(move, i), sum).Store(impulses, i);
         }
 
         Impulses<V>.Apply(batch, move);

@@ -55,6 +55,12 @@ internal sealed class ConjugateGradient
             double curvature = DenseVector.Dot(_direction, solution);
             if (!(curvature > LeastCurvature * norm))
             {
+                if (iteration == 0)
+                {
+                    // Of nothing but such rows: what the compliance makes of them.
+                    Array.Copy(_direction, _sum, _sum.Length);
+                }
+
                 break;
             }
 

@@ -23,7 +23,8 @@ internal static class RattleStep<V>
     /// <param name="tolerance">Largest C, metres or radians.</param>
     /// <param name="converged">Set for each lane.</param>
     /// <param name="isEager">Scalar rows keep to their bounds in every iteration instead of at its end alone: dearer, but
-    /// rows that contradict each other give way before the drift is led astray.</param>
+    /// rows that contradict each other give way before the drift is led astray. So they do once a drive runs away, see
+    /// <see cref="ActiveSet{V}.RunsAway"/>.</param>
     /// <param name="exact">Solves for each correction without the matrix's compliance, as long as it takes; null: by the factor alone.</param>
     public static void KickAndDrift(LaneBatch<V> batch, double h, double tolerance, bool[] converged, bool isEager = false, ConjugateGradient? exact = null)
     {
@@ -96,15 +97,42 @@ internal static class RattleStep<V>
                 return;
             }
 
-            ChordIteration<V>.Correct(batch, h, iteration == restart, batch.Work.PositionImpulses, exact);
-            while (isEager && batch.ActiveSet != null && batch.ActiveSet.ClampToBounds())
+            ChordIteration<V>.FindMove(batch, h, iteration == restart, exact);
+            isEager |= batch.ActiveSet != null && batch.ActiveSet.RunsAway(batch.Work.Move);
+            if (isEager && batch.ActiveSet != null)
             {
-                Array.Clear(batch.Work.Error, 0, batch.Work.Error.Length);
-                Factor(batch, true);
-                ReleaseAtBound(batch, h, batch.ActiveSet);
-                ChordIteration<V>.Correct(batch, h, true, batch.Work.PositionImpulses, exact);
-                restart = iteration;
+                restart = MoveWithinBounds(batch, h, batch.ActiveSet, exact) ? iteration : restart;
             }
+            else
+            {
+                ChordIteration<V>.Move(batch, batch.Work.PositionImpulses);
+            }
+        }
+    }
+
+    // Rows whose impulses the move leads beyond their bounds give way, and the rest moves on without them; whether one did.
+    private static bool MoveWithinBounds(LaneBatch<V> batch, double h, ActiveSet<V> scalars, ConjugateGradient? exact)
+    {
+        bool isAny = false;
+        while (true)
+        {
+            double share = scalars.ShareOfMove(batch.Work.Move, out int first);
+            for (int i = 0; i < batch.Work.Move.Length; i++)
+            {
+                batch.Work.Move[i] *= share;
+                batch.Work.Error[i] *= 1 - share;
+            }
+
+            ChordIteration<V>.Move(batch, batch.Work.PositionImpulses);
+            if (!scalars.ClampToBounds(first))
+            {
+                return isAny;
+            }
+
+            isAny = true;
+            Factor(batch, true);
+            ReleaseAtBound(batch, h, scalars);
+            ChordIteration<V>.FindMove(batch, h, true, exact);
         }
     }
 

@@ -145,7 +145,8 @@ internal static class VelocityProjection<V>
                 break;
             }
 
-            ChordIteration<V>.Correct(batch, 1, i == 0, batch.VelocityImpulses);
+            ChordIteration<V>.FindMove(batch, 1, i == 0);
+            ChordIteration<V>.Move(batch, batch.VelocityImpulses);
         }
 
         active.Store(batch.Work.Active, 0);

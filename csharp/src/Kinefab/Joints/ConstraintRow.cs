@@ -95,6 +95,13 @@ internal struct ConstraintRow
     /// <summary>Whether all of the flags are set.</summary>
     public readonly bool Has(RowFlags flags) => (Flags & flags) == flags;
 
+    /// <summary>Whether it comes from a limit that is no spring.</summary>
+    public readonly bool IsHardLimit => Has(RowFlags.Limit) && !Has(RowFlags.Spring);
+
+    /// <summary>Whether the row's limit throws back what comes to it at a speed.</summary>
+    /// <param name="approach">At which C falls, m/s or rad/s.</param>
+    public readonly bool Bounces(double approach) => Has(RowFlags.Restitution) && approach > BounceThreshold;
+
     /// <summary>Whether the other row has the same J, to the bit.</summary>
     public readonly bool HasJacobianOf(in ConstraintRow other) =>
         Linear0 == other.Linear0 && Angular0 == other.Angular0 && Angular1 == other.Angular1;

@@ -20,6 +20,10 @@ internal struct LimitResponse
 
     /// <summary>A soft limit acts only once it is passed.</summary>
     public readonly bool IsSoft => Stiffness > 0 || Damping > 0;
+
+    /// <summary>As <see cref="ConstraintRow.Bounces"/> of the row that it makes.</summary>
+    /// <param name="approach">Speed towards the stop, m/s or rad/s.</param>
+    public readonly bool Bounces(double approach) => Restitution > 0 && approach > BounceThreshold;
 }
 
 /// <summary>Largest distance over all limited linear axes together: segment, disc or ball (PxJointLinearLimit).</summary>

@@ -56,7 +56,7 @@ internal static class PgsConstants
         {
             multiplier = -inverseResponse;
             bounds.ImpulseMultiplier = 1;
-            if (row.Has(RowFlags.Restitution) && -velocity > row.BounceThreshold)
+            if (row.Bounces(-velocity))
             {
                 constant = inverseResponse * row.Restitution * -velocity;
                 unbiased = constant;

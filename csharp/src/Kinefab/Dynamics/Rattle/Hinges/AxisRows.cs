@@ -436,7 +436,7 @@ internal sealed class AxisRows<V>
 
         // C grows with the turn at the lower end and falls with it at the upper.
         double inward = isUpper ? _numbers[o + Speed * w] : -_numbers[o + Speed * w];
-        bool isBlow = limit.Response.Restitution > 0 && -inward > limit.Response.BounceThreshold;
+        bool isBlow = limit.Response.Bounces(-inward);
         if (limit.Response.IsSoft || isBlow || !(isUpper ? impulse > 0 : impulse < 0) || !(Math.Abs(end - joint.LastTwist) <= ScalarRow.MostClosedByDrift))
         {
             return false;

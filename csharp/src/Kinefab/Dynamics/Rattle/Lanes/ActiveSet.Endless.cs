@@ -323,7 +323,7 @@ internal sealed partial class ActiveSet<V>
         for (int i = 0; i < _rows.Length; i++)
         {
             ref ScalarRow scalar = ref _rows[i];
-            bool isReached = scalar.IsActive && IsHardLimit(scalar.Built) && scalar.Built.GeometricError <= reach;
+            bool isReached = scalar.IsActive && scalar.Built.IsHardLimit && scalar.Built.GeometricError <= reach;
             scalar.Kind = isReached ? RowKind.Limit : RowKind.None;
             scalar.State = isReached ? RowState.Free : RowState.AtBound;
         }

@@ -85,7 +85,7 @@ internal sealed partial class ActiveSet<V>
     {
         ref ScalarRow scalar = ref _rows[index];
         bool hardlyLeaves = scalar.StartError <= Reach * tolerance && IsThrownBack(scalar, tolerance) && (isSpent || HasEndless());
-        bool isOne = (isAny || hardlyLeaves) && scalar.IsActive && IsHardLimit(scalar.Built) && !scalar.IsLeft && !scalar.IsHeldBack;
+        bool isOne = (isAny || hardlyLeaves) && scalar.IsActive && scalar.Built.IsHardLimit && !scalar.IsLeft && !scalar.IsHeldBack;
         scalar.IsHeldBack |= isOne;
         return isOne;
     }
@@ -105,7 +105,7 @@ internal sealed partial class ActiveSet<V>
             ref ScalarRow scalar = ref _rows[i];
             bool wasReached = scalar.StartError <= reach;
             scalar.Flight = (wasReached ? 0 : scalar.Flight) + piece;
-            isAny |= scalar.IsApart && scalar.IsActive && IsHardLimit(scalar.Built) && scalar.Built.GeometricError <= reach;
+            isAny |= scalar.IsApart && scalar.IsActive && scalar.Built.IsHardLimit && scalar.Built.GeometricError <= reach;
         }
 
         _isBlow = isAny;
@@ -114,7 +114,7 @@ internal sealed partial class ActiveSet<V>
             ref ScalarRow scalar = ref _rows[i];
             _batch.VelocityImpulses[scalar.Index] = 0;
             scalar.ImpulseSecondHalf = 0;
-            bool isLimit = scalar.IsActive && IsHardLimit(scalar.Built);
+            bool isLimit = scalar.IsActive && scalar.Built.IsHardLimit;
             if (isLimit)
             {
                 bool isSpent = scalar.IsApart && scalar.Flight < leastFlight;
@@ -280,6 +280,4 @@ internal sealed partial class ActiveSet<V>
 
         return isChanged;
     }
-
-    private static bool IsHardLimit(in ConstraintRow row) => row.Has(RowFlags.Limit) && !row.Has(RowFlags.Spring);
 }

@@ -139,7 +139,7 @@ internal sealed partial class ActiveSet<V>
         {
             ref ScalarRow scalar = ref _rows[i];
             double allowed = scalar.IsActive ? scalar.Allowed : 0;
-            if (!scalar.IsApart && scalar.HasEnd && IsHardLimit(scalar.End) && scalar.End.GeometricError - allowed < -MostPassed * tolerance)
+            if (!scalar.IsApart && scalar.HasEnd && scalar.End.IsHardLimit && scalar.End.GeometricError - allowed < -MostPassed * tolerance)
             {
                 return true;
             }

@@ -194,8 +194,7 @@ internal sealed partial class ActiveSet<V>
             return scalar.IsStalled ? scalar.StartSpeed : scalar.Built.VelocityTarget;
         }
 
-        bool bounces = scalar.Built.Has(RowFlags.Restitution) && -scalar.StartSpeed > scalar.Built.BounceThreshold;
-        return bounces ? -scalar.Built.Restitution * scalar.StartSpeed : 0;
+        return scalar.Built.Bounces(-scalar.StartSpeed) ? -scalar.Built.Restitution * scalar.StartSpeed : 0;
     }
 
     private void SetImpulseSecondHalf(ref ScalarRow scalar, double impulse)

@@ -159,7 +159,7 @@ internal sealed partial class ActiveSet<V>
         for (int i = 0; i < _rows.Length; i++)
         {
             ref ScalarRow scalar = ref _rows[i];
-            scalar.Kind = scalar.IsActive && IsHardLimit(scalar.Built) ? RowKind.Limit : RowKind.None;
+            scalar.Kind = scalar.IsActive && scalar.Built.IsHardLimit ? RowKind.Limit : RowKind.None;
             double error = scalar.Built.GeometricError - (keepsAllowed ? scalar.Allowed : 0);
             bool isPassed = scalar.Kind == RowKind.Limit && error < 0;
             scalar.State = isPassed ? RowState.Free : RowState.AtBound;
@@ -176,7 +176,7 @@ internal sealed partial class ActiveSet<V>
         for (int i = 0; i < _rows.Length; i++)
         {
             ref ScalarRow scalar = ref _rows[i];
-            scalar.Allowed = scalar.IsActive && IsHardLimit(scalar.Built) ? Math.Min(0, scalar.Built.GeometricError) : 0;
+            scalar.Allowed = scalar.IsActive && scalar.Built.IsHardLimit ? Math.Min(0, scalar.Built.GeometricError) : 0;
             isAny |= scalar.Allowed < 0;
         }
 
@@ -216,8 +216,7 @@ internal sealed partial class ActiveSet<V>
         for (int i = 0; i < _rows.Length; i++)
         {
             ref ScalarRow scalar = ref _rows[i];
-            bool isLimit = scalar.IsActive && scalar.Built.Has(RowFlags.Limit) && !scalar.Built.Has(RowFlags.Spring);
-            if (isLimit && scalar.Built.GeometricError < scalar.Allowed - ScalarRow.MostClosedByDrift)
+            if (scalar.IsActive && scalar.Built.IsHardLimit && scalar.Built.GeometricError < scalar.Allowed - ScalarRow.MostClosedByDrift)
             {
                 return true;
             }
@@ -235,7 +234,7 @@ internal sealed partial class ActiveSet<V>
         {
             ref readonly ConstraintRow row = ref _rows[i].Built;
             found |= !_rows[i].IsActive ? StepTroubles.None
-                : IsHardLimit(row) && row.GeometricError <= reach ? StepTroubles.Limit
+                : row.IsHardLimit && row.GeometricError <= reach ? StepTroubles.Limit
                 : _rows[i].IsEndlessDrive ? StepTroubles.EndlessDrive
                 : StepTroubles.None;
         }
@@ -271,7 +270,7 @@ internal sealed partial class ActiveSet<V>
     public bool IsPushed(in ScalarRow scalar, double stalledWeight)
     {
         const double leastShare = 0.01;
-        return scalar.IsActive && IsHardLimit(scalar.Built) && scalar.State == RowState.Free && stalledWeight > 0 && Weight(scalar) > leastShare * stalledWeight;
+        return scalar.IsActive && scalar.Built.IsHardLimit && scalar.State == RowState.Free && stalledWeight > 0 && Weight(scalar) > leastShare * stalledWeight;
     }
 
     // A row's impulse by the speed at which its own bodies would part: of all rows in one unit, that of the root of an energy.
@@ -337,7 +336,7 @@ internal sealed partial class ActiveSet<V>
     // So fast that a joint that comes back to its limit within the drift is thrown back once more; a slower one may as well rest there at its end. What
     // leaves its limit by less than one that counts as reached may be away, as by rounding, rests there.
     private bool IsThrownBack(in ScalarRow scalar, double tolerance) =>
-        scalar.Built.Has(RowFlags.Restitution) && scalar.StartSpeed > scalar.Built.BounceThreshold && scalar.StartSpeed * _left > Reach * tolerance;
+        scalar.Built.Bounces(scalar.StartSpeed) && scalar.StartSpeed * _left > Reach * tolerance;
 
     // Where events are not located, a soft limit that the step will reach acts from its start on, by the pose at its end.
     private double SoftReach(in ScalarRow scalar, double h, double tolerance)

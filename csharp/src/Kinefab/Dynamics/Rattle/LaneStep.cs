@@ -119,16 +119,7 @@ internal sealed class LaneStep<V>
     }
 
     /// <summary>Into how many parts the step of a lane would have to be cut, up to 1 into none.</summary>
-    public double Demand(int lane, double dt)
-    {
-        double stiffest = 0;
-        for (int body = 0; body < Batch.Shape.MovingBodies; body++)
-        {
-            stiffest = Math.Max(stiffest, Batch.Bodies[LaneBatch<V>.Body(body, BodyLanes.Stiffness) + lane]);
-        }
-
-        return StepLimit.Of(stiffest, Batch.Work.Fastest[lane], dt);
-    }
+    public double Demand(int lane, double dt) => StepLimit.Of(StepLimit.Stiffest(Batch, lane), Batch.Work.Fastest[lane], dt);
 
     /// <summary>Whether a lane stands at a limit for which there is no row here.</summary>
     public bool IsAtLimit(int lane, double tolerance) => _limits != null && _limits.IsReached(Batch, lane, tolerance);

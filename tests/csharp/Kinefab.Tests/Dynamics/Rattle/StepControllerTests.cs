@@ -207,13 +207,7 @@ internal sealed class StepControllerTests
             LaneTransfer<ScalarLane>.BeginStep(batch);
             FreeMotion<ScalarLane>.Stay(batch);
             RattleStep<ScalarLane>.Rebuild(batch);
-            double stiffest = 0;
-            for (int body = 0; body < island.MovingBodies; body++)
-            {
-                stiffest = System.Math.Max(stiffest, batch.Bodies[LaneBatch<ScalarLane>.Body(body, BodyLanes.Stiffness)]);
-            }
-
-            most = System.Math.Max(most, StepLimit.Of(stiffest, batch.Work.Fastest[0], dt));
+            most = System.Math.Max(most, StepLimit.Of(StepLimit.Stiffest(batch, 0), batch.Work.Fastest[0], dt));
             controller.Advance(dt, 1e-9, ref cut, still, false, false);
             tries = System.Math.Max(tries, controller.Tries);
             LaneTransfer<ScalarLane>.EndStep(batch);

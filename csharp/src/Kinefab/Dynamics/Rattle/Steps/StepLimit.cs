@@ -22,18 +22,29 @@ internal static class StepLimit
     /// <summary>That of an island on the only lane, by its momenta and the stiffness that was last measured.</summary>
     public static double Of(LaneBatch<ScalarLane> batch, double dt)
     {
-        double stiffest = 0;
         double fastest = 0;
         double square = 0;
         for (int body = 0; body < batch.Shape.MovingBodies; body++)
         {
             int o = LaneBatch<ScalarLane>.Body(body, 0);
-            stiffest = Math.Max(stiffest, batch.Bodies[o + BodyLanes.Stiffness]);
             square = Math.Max(square, Impulses<ScalarLane>.AngularVelocity(batch, body).LengthSquared);
             FreeMotion<ScalarLane>.SphericalHalfRate(batch.Bodies, o, batch.Shape.RotationSplittings[body]).Store(batch.Work.Fastest, 0);
             fastest = Math.Max(fastest, batch.Work.Fastest[0]);
         }
 
-        return Of(stiffest, Math.Max(fastest, Math.Sqrt(square)), dt);
+        return Of(Stiffest(batch, 0), Math.Max(fastest, Math.Sqrt(square)), dt);
+    }
+
+    /// <summary>Largest <see cref="BodyLanes.Stiffness"/> of a lane.</summary>
+    public static double Stiffest<V>(LaneBatch<V> batch, int lane)
+        where V : struct, ILane<V>
+    {
+        double stiffest = 0;
+        for (int body = 0; body < batch.Shape.MovingBodies; body++)
+        {
+            stiffest = Math.Max(stiffest, batch.Bodies[LaneBatch<V>.Body(body, BodyLanes.Stiffness) + lane]);
+        }
+
+        return stiffest;
     }
 }

@@ -152,8 +152,8 @@ internal sealed class RattleSolver : ISolver, IStepParts
         LoopConsistency worst = LoopConsistency.Exact;
         foreach (RowBlock block in island.Blocks)
         {
-            bool isProbed = block.Joint != null && _fits.ContainsKey(block.Index) && island.HasJointLoops;
-            worst = isProbed && _fits[block.Index] > worst ? _fits[block.Index] : worst;
+            bool isProbed = _fits.TryGetValue(block.Index, out LoopConsistency fit) && block.Joint != null && island.HasJointLoops;
+            worst = isProbed && fit > worst ? fit : worst;
         }
 
         return worst;

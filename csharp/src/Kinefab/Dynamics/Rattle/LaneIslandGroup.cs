@@ -218,8 +218,7 @@ internal sealed class LaneIslandGroup<V> : IslandGroup
         LaneTransfer<ScalarLane>.GatherConstants(_spare, 0, island, _mechanism);
         LaneTransfer<ScalarLane>.Gather(_spare, _mechanism, dt);
         LaneTransfer<ScalarLane>.BeginStep(_spare);
-        _spare.ClearHistory();
-        _spare.Scalars?.Reset();
+        _spare.Reset();
         LaneTransfer<V>.CopyGuess(free.Batch, lane, _spare, 0);
         AxisRows<V>? axes = (_resting.Length > 0 ? _resting[index] : free).Batch.Axes;
         AloneMemory? memory = _memories.Length > 0 ? _memories[index * Lane<V>.Width + lane] : null;

@@ -491,7 +491,6 @@ internal sealed partial class StepController
             }
         }
 
-        Array.Clear(_batch.VelocityImpulses, 0, _batch.VelocityImpulses.Length);
-        _batch.Scalars?.ClearHistory();
+        _batch.ClearHistory();
     }
 }

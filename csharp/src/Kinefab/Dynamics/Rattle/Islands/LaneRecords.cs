@@ -157,4 +157,11 @@ internal class LaneRecords<V>
         Array.Clear(VelocityImpulses, 0, VelocityImpulses.Length);
         Scalars?.ClearHistory();
     }
+
+    /// <summary>Nothing is known of steps before, as of another island.</summary>
+    public void Reset()
+    {
+        Array.Clear(VelocityImpulses, 0, VelocityImpulses.Length);
+        Scalars?.Reset();
+    }
 }

@@ -24,10 +24,8 @@ internal sealed class Substep
     // A piece up to a leap is worth its cost from this share of the drift on.
     private const double LeastSure = 0.05;
 
-    /// <summary>C of a limit, in tolerances below 0, down to which a drift has reached it and not passed it.</summary>
-    public const double MostPassed = 1;
-
-    // And up to which above 0.
+    // C of a limit, in tolerances, down to and up to which a drift has reached it.
+    private const double MostPassed = ActiveSet<ScalarLane>.MostPassed;
     private const double MostShort = 5;
 
     // Tolerances by which an angle of an exact loop may stay open.
@@ -149,7 +147,7 @@ internal sealed class Substep
             _batch.ActiveSet.LocatesEvents = false;
         }
 
-        if (!_implicit.TrySolve(h, tolerance) || IsLeftOpen(tolerance) || FreeMotion<ScalarLane>.HasTurnedFar(_batch, 0) || (_batch.ActiveSet != null && _batch.ActiveSet.HasMissedEvent(h, tolerance)))
+        if (!_implicit.TrySolve(h, tolerance) || IsLeftOpen(tolerance) || HasGoneTooFar(h, tolerance))
         {
             return false;
         }
@@ -177,8 +175,7 @@ internal sealed class Substep
         }
 
         _pieceStart.Restore(_batch);
-        Array.Clear(_batch.VelocityImpulses, 0, _batch.VelocityImpulses.Length);
-        _batch.Scalars?.ClearHistory();
+        _batch.ClearHistory();
         return TryDrift(h, tolerance, IsExact ? _exact : null);
     }
 
@@ -191,8 +188,12 @@ internal sealed class Substep
     {
         _batch.Work.Active[0] = 1;
         RattleStep<ScalarLane>.KickAndDrift(_batch, h, tolerance, _converged, IsEager, exact);
-        return _converged[0] && !FreeMotion<ScalarLane>.HasTurnedFar(_batch, 0) && (_batch.ActiveSet == null || !_batch.ActiveSet.HasMissedEvent(h, tolerance));
+        return _converged[0] && !HasGoneTooFar(h, tolerance);
     }
+
+    // What the pose at the end of a drift does not tell: how far a body turned, or that a limit was passed on the way.
+    private bool HasGoneTooFar(double h, double tolerance) =>
+        FreeMotion<ScalarLane>.HasTurnedFar(_batch, 0) || (_batch.ActiveSet != null && _batch.ActiveSet.HasMissedEvent(h, tolerance));
 
     /// <summary>A <see cref="ProjectedStep"/> from the start pose; energy that closing the end pose gave is taken from the speeds.</summary>
     /// <param name="h">Length, s.</param>

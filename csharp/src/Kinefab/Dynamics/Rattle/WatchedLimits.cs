@@ -89,7 +89,7 @@ internal sealed class WatchedLimits<V>
             JointModel joint = batch.Models[n * w + lane]!;
             if (form == WatchForm.Prepared)
             {
-                if (!(LeastLeft(batch, n, joint, lane) >= -Substep.MostPassed * tolerance))
+                if (!(LeastLeft(batch, n, joint, lane) >= -ActiveSet<V>.MostPassed * tolerance))
                 {
                     return true;
                 }
@@ -99,7 +99,7 @@ internal sealed class WatchedLimits<V>
 
             ref double turn = ref _turns[2 * n * w + lane];
             turn = SwingTwist.Nearest(turn, joint.LastTwist);
-            if (!(Math.Abs(turn - joint.LastTwist) <= MostTurn) || (form == WatchForm.Twist && !(HingeRange.LeftOf(joint, turn) >= -Substep.MostPassed * tolerance)))
+            if (!(Math.Abs(turn - joint.LastTwist) <= MostTurn) || (form == WatchForm.Twist && !(HingeRange.LeftOf(joint, turn) >= -ActiveSet<V>.MostPassed * tolerance)))
             {
                 return true;
             }

@@ -231,6 +231,10 @@ internal struct ScalarRow
         : Kind == RowKind.Spring ? ProjectedAs.Compliant
         : ProjectedAs.Rigid;
 
+    /// <summary>Whether the joint stands at its limit where the row was last built, or beyond it.</summary>
+    /// <param name="reach">C up to which it does, m or rad.</param>
+    public readonly bool IsReached(double reach) => Built.GeometricError - Allowed <= reach;
+
     /// <summary>
     /// About where in the drift a limit that is passed at its end is reached, as a share of it: where the parabola through C and its rate at the start
     /// and C at the end falls through 0; where nothing is known of its start, as of a fall from rest at twice the depth, 1 / sqrt 2.

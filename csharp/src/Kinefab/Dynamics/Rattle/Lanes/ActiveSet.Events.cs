@@ -122,7 +122,7 @@ internal sealed partial class ActiveSet<V>
                 scalar.IsApart = false;
                 scalar.ImpulseFirstHalf = 0;
                 scalar.StartSpeed = isSpent ? 0 : StartSpeed(scalar);
-                scalar.State = scalar.Built.GeometricError - scalar.Allowed <= reach ? RowState.Free : RowState.AtBound;
+                scalar.State = scalar.IsReached(reach) ? RowState.Free : RowState.AtBound;
             }
             else if (scalar.AsksForSpeed && scalar.HoldsThroughBlows && !scalar.IsHeld)
             {
@@ -220,7 +220,7 @@ internal sealed partial class ActiveSet<V>
             scalar.StartSpeed = 0;
             scalar.CorrectionGain = 0;
             _batch.VelocityImpulses[scalar.Index] = 0;
-            scalar.State = scalar.Kind == RowKind.Limit && scalar.Built.GeometricError - scalar.Allowed <= reach ? RowState.Free : RowState.AtBound;
+            scalar.State = scalar.Kind == RowKind.Limit && scalar.IsReached(reach) ? RowState.Free : RowState.AtBound;
         }
     }
 

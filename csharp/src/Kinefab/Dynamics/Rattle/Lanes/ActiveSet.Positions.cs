@@ -8,8 +8,8 @@ namespace Kinefab.Dynamics.Rattle;
 internal sealed partial class ActiveSet<V>
     where V : struct, ILane<V>
 {
-    // Tolerances by which a limit may be passed at the end of a drift.
-    private const double MostPassed = 1.01;
+    // Of what a limit may be passed by at the end of a drift: what the search for states has left at just that is not missed.
+    private const double Slack = 1.01;
 
     // Of a correction, the share from which on rows that it leads beyond their bounds are held there together.
     private const double LeastShare = 0.01;
@@ -139,7 +139,7 @@ internal sealed partial class ActiveSet<V>
         {
             ref ScalarRow scalar = ref _rows[i];
             double allowed = scalar.IsActive ? scalar.Allowed : 0;
-            if (!scalar.IsApart && scalar.HasEnd && scalar.End.IsHardLimit && scalar.End.GeometricError - allowed < -MostPassed * tolerance)
+            if (!scalar.IsApart && scalar.HasEnd && scalar.End.IsHardLimit && scalar.End.GeometricError - allowed < -Slack * MostPassed * tolerance)
             {
                 return true;
             }

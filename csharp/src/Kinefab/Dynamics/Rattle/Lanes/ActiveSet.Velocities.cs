@@ -45,7 +45,7 @@ internal sealed partial class ActiveSet<V>
 
                     break;
                 default:
-                    scalar.State = !scalar.IsApart && scalar.Built.GeometricError - scalar.Allowed <= tolerance ? RowState.Free : RowState.AtBound;
+                    scalar.State = !scalar.IsApart && scalar.IsReached(tolerance) ? RowState.Free : RowState.AtBound;
                     break;
             }
         }
@@ -105,7 +105,7 @@ internal sealed partial class ActiveSet<V>
                     isChanged = true;
                 }
             }
-            else if (scalar.Kind == RowKind.Limit && !scalar.IsApart && scalar.Built.GeometricError - scalar.Allowed <= tolerance
+            else if (scalar.Kind == RowKind.Limit && !scalar.IsApart && scalar.IsReached(tolerance)
                 && Impulses<V>.Speed(_batch, scalar.Block, scalar.Built) < TargetSpeed(scalar) - tolerance)
             {
                 scalar.State = RowState.Free;

@@ -20,6 +20,9 @@ internal sealed partial class ActiveSet<V>
     /// <summary>A limit this many tolerances away counts as reached.</summary>
     public const double Reach = 10;
 
+    /// <summary>C of a limit, in tolerances below 0, down to which a drift has reached it and not passed it.</summary>
+    public const double MostPassed = 1;
+
     private readonly LaneRecords<V> _batch;
     private readonly ScalarRows _scalars;
     private readonly ScalarRow[] _rows;

@@ -57,7 +57,7 @@ def box(x: float, y: float, width: float, height: float, kind: str = "") -> str:
 def picture() -> str:
     drawn = [
         text(LEFT, 32, "Kinefab: the rooms of the C# library", "title"),
-        text(LEFT, 54, "A hall uses only what stands below it, a room only its hall's rooms to the left. The numbers are the road of a file.", "small"),
+        text(LEFT, 54, "A hall uses only what stands below it, a room only its hall's rooms before it. The numbers are the road of a file.", "small"),
         text(LEFT, 76, "before", "small"),
         text(300, 76, "now, with the files of each room", "small"),
     ]
@@ -67,18 +67,20 @@ def picture() -> str:
         if hall in BEFORE:
             drawn.append(box(LEFT, y, 72 + 170 * BEFORE[hall] / most, ROW - 10))
             drawn.append(text(LEFT + 8, y + 21, f"{hall} {BEFORE[hall]}", "small"))
-        kind = "road" if hall in ROAD else ""
-        drawn.append(box(300, y, WIDTH - 300 - LEFT, ROW - 8, kind))
-        if hall in ROAD:
-            drawn += [f'<circle cx="316" cy="{y + 18}" r="9"/>', text(312.5, y + 22, str(ROAD[hall]), "number")]
-        drawn.append(text(332, y + 22, hall, "name"))
-        at = 430.0
+        inner: list[str] = []
+        at, line = 430.0, 0
         for room in [r for r in rooms() if r.split("/")[0] == hall] or [hall]:
             label = f"{room.partition('/')[2] or '·'} {count(room)}"
             size = 6.4 * len(label) + 12
-            drawn += [box(at, y + 8, size, 20, "inner"), text(at + 6, y + 22, label, "small")]
+            if at + size > WIDTH - LEFT - 6:
+                at, line = 430.0, line + 1
+            inner += [box(at, y + 8 + 24 * line, size, 20, "inner"), text(at + 6, y + 22 + 24 * line, label, "small")]
             at += size + 6
-        y += ROW
+        drawn.append(box(300, y, WIDTH - 300 - LEFT, ROW - 8 + 24 * line, "road" if hall in ROAD else ""))
+        if hall in ROAD:
+            drawn += [f'<circle cx="316" cy="{y + 18}" r="9"/>', text(312.5, y + 22, str(ROAD[hall]), "number")]
+        drawn += [text(332, y + 22, hall, "name"), *inner]
+        y += ROW + 24 * line
     size = f'viewBox="0 0 {WIDTH} {y + 8}" width="{WIDTH}" height="{y + 8}"'
     return f'<svg xmlns="http://www.w3.org/2000/svg" {size}>\n<style>{STYLE}</style>\n' + "\n".join(drawn) + "\n</svg>\n"
 

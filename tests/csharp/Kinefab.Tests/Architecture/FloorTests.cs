@@ -31,7 +31,7 @@ public sealed class FloorTests
         "Document", "Document/Couplings", "Document/Joints", "Document/Rendering", "Document/Bodies", "Document/Analysis", "Document/Scene", "Document/Files",
         "Validation/Places", "Validation/Rules/Joints", "Validation/Rules", "Validation",
         "Mechanisms", "Mechanisms/Links",
-        "Dynamics/Bodies", "Dynamics/Articulations", "Dynamics/Pgs/Projection", "Dynamics/Pgs", "Dynamics/Rattle/Islands", "Dynamics/Rattle/Hinges", "Dynamics/Rattle/Lanes", "Dynamics/Rattle/Energy", "Dynamics/Rattle/Steps", "Dynamics/Rattle/Consistency", "Dynamics/Rattle/Memory", "Dynamics/Rattle",
+        "Dynamics/Bodies", "Dynamics/Articulations", "Dynamics/Pgs/Projection", "Dynamics/Pgs", "Dynamics/Rattle/Islands", "Dynamics/Rattle/Records", "Dynamics/Rattle/Hinges", "Dynamics/Rattle/Lanes", "Dynamics/Rattle/ActiveSet", "Dynamics/Rattle/Energy", "Dynamics/Rattle/Steps", "Dynamics/Rattle/Consistency", "Dynamics/Rattle/Memory", "Dynamics/Rattle",
         "Dynamics/Worlds/Joints", "Dynamics/Worlds",
         "Kinematics/Mechanism", "Kinematics/Equations", "Kinematics/Solving", "Kinematics/Driving", "Kinematics/Mobility",
         "Advice/Model", "Advice/Runs", "Advice/Changes", "Advice/Trials", "Advice/Findings", "Advice",

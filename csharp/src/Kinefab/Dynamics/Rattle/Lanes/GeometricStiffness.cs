@@ -16,7 +16,7 @@ internal static class GeometricStiffness<V>
     /// <param name="batch">Built at the end pose.</param>
     /// <param name="impulses">Impulses of the rows.</param>
     /// <param name="duration">Seconds in which they act.</param>
-    public static void Estimate(LaneBatch<V> batch, double[] impulses, double duration)
+    public static void Estimate(LaneRecords<V> batch, double[] impulses, double duration)
     {
         double[] a = batch.Bodies;
         int w = Lane<V>.Width;
@@ -27,7 +27,7 @@ internal static class GeometricStiffness<V>
         Island shape = batch.Shape;
         for (int body = 0; body < shape.MovingBodies; body++)
         {
-            zero.Store(a, LaneBatch<V>.Body(body, BodyLanes.Stiffness));
+            zero.Store(a, LaneRecords<V>.Body(body, BodyLanes.Stiffness));
         }
 
         for (int n = 0; n < shape.Blocks.Length; n++)
@@ -47,16 +47,16 @@ internal static class GeometricStiffness<V>
                     continue;
                 }
 
-                LaneVector<V> lever = LaneVector<V>.Load(batch.Joints, LaneBatch<V>.Joint(n, LaneBatch<V>.WorldFrame(side)));
-                int inverse = LaneBatch<V>.Body(body, BodyLanes.WorldInverse);
+                LaneVector<V> lever = LaneVector<V>.Load(batch.Joints, LaneRecords<V>.Joint(n, LaneRecords<V>.WorldFrame(side)));
+                int inverse = LaneRecords<V>.Body(body, BodyLanes.WorldInverse);
                 Lane<V> trace = Lane<V>.Load(a, inverse) + Lane<V>.Load(a, inverse, 1) + Lane<V>.Load(a, inverse, 2);
                 Lane<V> square = LaneVector<V>.Dot(lever, lever);
                 Lane<V> light = half * (trace * square - LaneVector<V>.Dot(lever, LaneVector<V>.Transform(a, inverse, 0, lever)));
-                Lane<V> heavy = Lane<V>.Splat(1) / Lane<V>.Load(a, LaneBatch<V>.Body(body, BodyLanes.InverseMass));
+                Lane<V> heavy = Lane<V>.Splat(1) / Lane<V>.Load(a, LaneRecords<V>.Body(body, BodyLanes.InverseMass));
                 Lane<V> pull = LaneVector<V>.Dot(impulse, lever) / (square + least);
                 pull = side == 0 ? pull : zero - pull;
                 Lane<V> stiffness = rate * Lane<V>.Max(pull, zero) * (light / (Lane<V>.Splat(1) + heavy * light));
-                int o = LaneBatch<V>.Body(body, BodyLanes.Stiffness);
+                int o = LaneRecords<V>.Body(body, BodyLanes.Stiffness);
                 (Lane<V>.Load(a, o) + stiffness).Store(a, o);
             }
         }

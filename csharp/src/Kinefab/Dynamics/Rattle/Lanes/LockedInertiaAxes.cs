@@ -11,11 +11,11 @@ internal static class LockedInertiaAxes<V>
     where V : struct, ILane<V>
 {
     /// <summary>Takes what lies along frozen axes, as they stand at the start of the step, out of the angular momenta.</summary>
-    public static void ClearMomentum(LaneBatch<V> batch)
+    public static void ClearMomentum(LaneRecords<V> batch)
     {
         foreach (int body in batch.Shape.LockedInertiaBodies)
         {
-            ClearMomentum(batch.Bodies, LaneBatch<V>.Body(body, 0));
+            ClearMomentum(batch.Bodies, LaneRecords<V>.Body(body, 0));
         }
     }
 

@@ -25,7 +25,7 @@ internal sealed partial class StepController
         for (int i = _batch.ActiveSet?.NextHeldOpen(0) ?? -1; i >= 0; i = _batch.ActiveSet!.NextHeldOpen(i + 1))
         {
             ref readonly ScalarRow row = ref _batch.ActiveSet!.Row(i);
-            held.Add(new HeldLimit { Body = island.Bodies[0], Joint = island.Blocks[row.Block].Joint!, Error = -row.Allowed, IsAngular = row.Built.Has(RowFlags.Angular) });
+            held.Add(new HeldLimit { Body = island.Bodies[0], Joint = island.Blocks[row.Block].Joint!, Error = -row.Limit.Allowed, IsAngular = row.Built.Has(RowFlags.Angular) });
         }
     }
 
@@ -52,7 +52,7 @@ internal sealed partial class StepController
         for (int i = 0; i < scalars.Count; i++)
         {
             ref readonly ScalarRow row = ref scalars.Row(i);
-            bool isDrive = row.IsStalled || (areOpposed && row.IsOpposing);
+            bool isDrive = row.Drive.IsStalled || (areOpposed && row.Drive.IsOpposing);
             if (!isDrive && !scalars.IsPushed(row, weight))
             {
                 continue;

@@ -265,7 +265,7 @@ internal sealed class Substep
 
     // The drift as long as leads to the first limit on its way: the least C of those that are apart, by Chandrupatla's rule, which takes the inverse
     // parabola through the last three lengths where it may be trusted and halves the bracket elsewhere. Source: Chandrupatla 1997.
-    private bool TryReach(double longest, double passed, ScalarRow first, double tolerance, out double piece, out bool isPassedAtOnce)
+    private bool TryReach(double longest, double passed, in ScalarRow first, double tolerance, out double piece, out bool isPassedAtOnce)
     {
         isPassedAtOnce = false;
         double aim = (MostShort - MostPassed) / 2 * tolerance;

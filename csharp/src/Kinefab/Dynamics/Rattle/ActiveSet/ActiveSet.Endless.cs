@@ -15,15 +15,8 @@ internal sealed partial class ActiveSet<V>
     // By how much the drives of one joint's angles, whose axes are not at right angles, may work against each other.
     private const double MostBySkew = 4;
 
-    // Of a drive that nothing can follow, its speed is a millionth.
-    private const int MostSlowdowns = 20;
+    // How often the speed of one that the mechanism does not follow is halved in a step.
     private const int Slowdown = 2;
-
-    // One that stands rests: it asks for nothing that rounding tells from rest, so that it and what holds it agree. It tries again now and then as it comes
-    // back from there, and rests on until it is that much faster than one that nothing can follow; where HeldDrives sees it free, at once.
-    private const int Resting = 60;
-    private const int Awake = 4;
-    private const int Return = 4;
 
     // Of the speed that it was asked for at first, one that gains more in a step still comes, and one that has less stands, if it also turns by less in a
     // step, rad, or moves by less of what the mechanism reaches.
@@ -76,7 +69,7 @@ internal sealed partial class ActiveSet<V>
         load += weights * fastestTurn * (fastestTurn * reach + 2 * fastest) + (isAngular ? inertia * fastestTurn * fastestTurn : 0);
         double others = isAngular ? inertia * turning + weights * moving : inertia * (moving + turning * reach);
         double start = Math.Max(0, Margin * (inertia * (speed + Math.Abs(drive.StartSpeed)) + others) - Math.Abs(_batch.Work.TotalImpulses[drive.Index]));
-        double force = Margin * (load + Levers * Opposed(drive, h, speed, reach)) + inertia * mostAcceleration * Math.Sqrt(drive.Pace);
+        double force = Margin * (load + Levers * Opposed(drive, h, speed, reach)) + inertia * mostAcceleration * Math.Sqrt(drive.Pace.Share);
         return ByGears(reach) * (isAngular && AreAskew(drive) ? MostBySkew : 1) * (start + force * h);
     }
 
@@ -102,7 +95,7 @@ internal sealed partial class ActiveSet<V>
         for (int i = 0; i < _rows.Length; i++)
         {
             ref ScalarRow other = ref _rows[i];
-            double speed = other.IsEndlessDrive && !other.IsHeld && other.Index != drive.Index ? Math.Abs(other.Built.VelocityTarget) + Math.Abs(StartSpeed(other)) : 0;
+            double speed = other.IsEndlessDrive && !other.Drive.IsHeld && other.Index != drive.Index ? Math.Abs(other.Built.VelocityTarget) + Math.Abs(StartSpeed(other)) : 0;
             turning += other.Built.Has(RowFlags.Angular) ? speed : 0;
             moving += other.Built.Has(RowFlags.Angular) ? 0 : speed;
         }
@@ -157,7 +150,7 @@ internal sealed partial class ActiveSet<V>
 
     /// <summary>
     /// Before a step: a drive to a goal far away does not begin with the whole speed that its gap asks for, lest what lies beyond the mechanism's reach
-    /// throw it about; it may be <see cref="ScalarRow.SlowerBy"/> times faster in each step.
+    /// throw it about; it may be <see cref="DrivePace.SlowerBy"/> times faster in each step.
     /// </summary>
     /// <param name="dt">Step, s.</param>
     public void BeginPace(double dt)
@@ -166,22 +159,22 @@ internal sealed partial class ActiveSet<V>
         for (int i = 0; i < _rows.Length; i++)
         {
             ref ScalarRow scalar = ref _rows[i];
-            if (!scalar.IsEndlessDrive || Side(scalar.Built.VelocityTarget) == -scalar.SlowdownSide)
+            if (!scalar.IsEndlessDrive || Side(scalar.Built.VelocityTarget) == -scalar.Pace.Side)
             {
                 scalar.SlowDown(0);
             }
 
-            scalar.PaceSpeed = scalar.IsEndlessDrive ? StartSpeed(scalar) : 0;
+            scalar.Pace.StartSpeed = scalar.IsEndlessDrive ? StartSpeed(scalar) : 0;
             if (!scalar.IsEndlessDrive || !scalar.Built.Has(RowFlags.Motion))
             {
                 continue;
             }
 
-            double most = Math.Max(scalar.Built.Has(RowFlags.Angular) ? MostTurn : MostWay * FarthestBody(scalar), ScalarRow.SlowerBy * dt * Math.Abs(scalar.PaceSpeed));
+            double most = Math.Max(scalar.Built.Has(RowFlags.Angular) ? MostTurn : MostWay * FarthestBody(scalar), DrivePace.SlowerBy * dt * Math.Abs(scalar.Pace.StartSpeed));
             double error = Math.Abs(scalar.Built.GeometricError);
-            while (most > 0 && scalar.Slowdowns < MostSlowdowns && error - error / scalar.Growth(dt) > most)
+            while (most > 0 && scalar.Pace.Slowdowns < DrivePace.MostSlowdowns && error - error / scalar.Growth(dt) > most)
             {
-                scalar.SlowDown(scalar.Slowdowns + 1);
+                scalar.SlowDown(scalar.Pace.Slowdowns + 1);
             }
         }
     }
@@ -201,35 +194,35 @@ internal sealed partial class ActiveSet<V>
         for (int i = 0; i < _rows.Length; i++)
         {
             ref ScalarRow scalar = ref _rows[i];
-            if (!scalar.IsEndlessDrive || scalar.IsHeld || !scalar.AsksForSpeed)
+            if (!scalar.IsEndlessDrive || scalar.Drive.IsHeld || !scalar.AsksForSpeed)
             {
                 continue;
             }
 
             double asked = Math.Abs(scalar.Built.VelocityTarget);
-            scalar.SlowdownSide = Side(scalar.Built.VelocityTarget);
-            double speed = StartSpeed(scalar) * scalar.SlowdownSide;
-            bool isFollowed = !scalar.IsStalled && speed >= LeastFollowed * asked - tolerance;
-            double little = LeastMoved * asked / scalar.Pace;
-            bool comes = speed > Math.Max(0, scalar.PaceSpeed * scalar.SlowdownSide) + little;
+            scalar.Pace.Side = Side(scalar.Built.VelocityTarget);
+            double speed = StartSpeed(scalar) * scalar.Pace.Side;
+            bool isFollowed = !scalar.Drive.IsStalled && speed >= LeastFollowed * asked - tolerance;
+            double little = LeastMoved * asked / scalar.Pace.Share;
+            bool comes = speed > Math.Max(0, scalar.Pace.StartSpeed * scalar.Pace.Side) + little;
             double growth = GrowthAtADeadPoint(ref scalar);
-            bool stands = scalar.IsStalled && Math.Abs(speed) <= little
+            bool stands = scalar.Drive.IsStalled && Math.Abs(speed) <= little
                 && Math.Abs(speed) * dt <= LeastWay * (scalar.Built.Has(RowFlags.Angular) ? 1 : FarthestBody(scalar));
-            int before = scalar.Slowdowns;
-            bool rests = Rests(scalar);
-            scalar.FollowedSlowdowns = isFollowed && !rests ? before : scalar.FollowedSlowdowns;
-            scalar.SlowDown(isFollowed && growth > MostHeavier ? Math.Min(MostSlowdowns, before + 1)
+            int before = scalar.Pace.Slowdowns;
+            bool rests = scalar.Pace.Rests;
+            scalar.Pace.FollowedSlowdowns = isFollowed && !rests ? before : scalar.Pace.FollowedSlowdowns;
+            scalar.SlowDown(isFollowed && growth > MostHeavier ? Math.Min(DrivePace.MostSlowdowns, before + 1)
                 : isFollowed ? Math.Max(0, before - (growth > Heavier ? 0 : 1))
-                : stands || rests ? Resting
+                : stands || rests ? DrivePace.Resting
                 : comes ? before
-                : Math.Min(MostSlowdowns, before + Slowdown));
+                : Math.Min(DrivePace.MostSlowdowns, before + Slowdown));
 
             // Not silently: it is named as one that stalls.
-            scalar.IsStalled |= isFollowed && growth > MostHeavier;
-            scalar.HasRested = Rests(scalar);
-            isAny |= scalar.Slowdowns > 0;
-            scalar.RestingFreedom = rests ? scalar.RestingFreedom : double.NaN;
-            comesToRest |= before < scalar.Slowdowns && scalar.Slowdowns == Resting;
+            scalar.Drive.IsStalled |= isFollowed && growth > MostHeavier;
+            scalar.Pace.HasRested = scalar.Pace.Rests;
+            isAny |= scalar.Pace.Slowdowns > 0;
+            scalar.Pace.RestingFreedom = rests ? scalar.Pace.RestingFreedom : double.NaN;
+            comesToRest |= before < scalar.Pace.Slowdowns && scalar.Pace.Slowdowns == DrivePace.Resting;
         }
 
         if (comesToRest)
@@ -244,18 +237,18 @@ internal sealed partial class ActiveSet<V>
     // the drive's row, 1 / (J M^-1 J^T) once all other rows that act have answered. At a dead point it is infinite. 1 elsewhere.
     private double GrowthAtADeadPoint(ref ScalarRow drive)
     {
-        double before = drive.Inertia;
-        drive.Inertia = 0;
+        double before = drive.Pace.Inertia;
+        drive.Pace.Inertia = 0;
         if (drive.State == RowState.Free && drive.ProjectedAs == ProjectedAs.Rigid && _scalars.IsFactored)
         {
             double[] unit = _batch.Work.Solution;
             Array.Clear(unit, 0, unit.Length);
             unit[drive.Index] = 1;
             DelassusMatrix<V>.Solve(_batch, unit);
-            drive.Inertia = unit[drive.Index];
+            drive.Pace.Inertia = unit[drive.Index];
         }
 
-        return before > 0 && drive.Inertia > ByGears(0) * MostInertia(drive, out _) ? drive.Inertia / before : 1;
+        return before > 0 && drive.Pace.Inertia > ByGears(0) * MostInertia(drive, out _) ? drive.Pace.Inertia / before : 1;
     }
 
     // A drive that gave all it has and what stopped it hold each other by far more than they have to. As a guess that would stay, since rows that agree ask
@@ -283,8 +276,8 @@ internal sealed partial class ActiveSet<V>
         bool isAny = false;
         for (int i = NextResting(0); i >= 0; i = NextResting(i + 1))
         {
-            isAny |= _rows[i].Slowdowns < Resting;
-            _rows[i].SlowDown(Resting);
+            isAny |= _rows[i].Pace.Slowdowns < DrivePace.Resting;
+            _rows[i].SlowDown(DrivePace.Resting);
         }
 
         if (isAny)
@@ -295,14 +288,11 @@ internal sealed partial class ActiveSet<V>
         return isAny;
     }
 
-    // One that comes back from a rest rests until it was followed a little.
-    private static bool Rests(in ScalarRow drive) => drive.Slowdowns > MostSlowdowns - (drive.HasRested ? Return : 0);
-
     /// <summary>The next row, from one on, of a drive that rests; -1: there is none.</summary>
     public int NextResting(int from)
     {
         int i = from;
-        while (i < _rows.Length && !(Rests(_rows[i]) && _rows[i].IsEndlessDrive))
+        while (i < _rows.Length && !(_rows[i].Pace.Rests && _rows[i].IsEndlessDrive))
         {
             i++;
         }
@@ -311,10 +301,10 @@ internal sealed partial class ActiveSet<V>
     }
 
     /// <summary>Notes what freedom a drive came to rest with, see <see cref="HeldDrives.Wake"/>.</summary>
-    public void NoteFreedom(int index, double freedom) => _rows[index].RestingFreedom = freedom;
+    public void NoteFreedom(int index, double freedom) => _rows[index].Pace.RestingFreedom = freedom;
 
     /// <summary>A drive that rests goes on.</summary>
-    public void Wake(int index) => _rows[index].SlowDown(Math.Max(Awake, _rows[index].FollowedSlowdowns));
+    public void Wake(int index) => _rows[index].SlowDown(_rows[index].Pace.AwakeSlowdowns);
 
     /// <summary>Holds the hard limits that are reached where the rows were last built, and nothing else.</summary>
     /// <param name="reach">C up to which a limit counts as reached, m or rad.</param>
@@ -351,14 +341,14 @@ internal sealed partial class ActiveSet<V>
     public bool HasEndless() => Array.Exists(_rows, row => row.IsEndlessDrive);
 
     /// <summary>Whether a drive without limit of force is slowed down.</summary>
-    public bool HasSlowedDown() => Array.Exists(_rows, row => row.IsEndlessDrive && row.Slowdowns > 0);
+    public bool HasSlowedDown() => Array.Exists(_rows, row => row.IsEndlessDrive && row.Pace.Slowdowns > 0);
 
     /// <summary>Whether a drive is held, see <see cref="HeldDrives"/>.</summary>
     public bool HasHeld()
     {
         // Each step asks: no row is copied.
         int i = 0;
-        while (i < _rows.Length && !_rows[i].IsHeld)
+        while (i < _rows.Length && !_rows[i].Drive.IsHeld)
         {
             i++;
         }
@@ -372,8 +362,8 @@ internal sealed partial class ActiveSet<V>
         var found = new List<int>();
         for (int i = 0; i < _rows.Length; i++)
         {
-            _rows[i].IsHeld = false;
-            _rows[i].IsOpposing = false;
+            _rows[i].Drive.IsHeld = false;
+            _rows[i].Drive.IsOpposing = false;
             if (_rows[i].IsEndlessDrive && Response(_rows[i]) > ScalarRow.LeastResponse)
             {
                 found.Add(i);
@@ -384,13 +374,13 @@ internal sealed partial class ActiveSet<V>
     }
 
     /// <summary>Notes that a drive is held.</summary>
-    public void Hold(int index) => _rows[index].IsHeld = true;
+    public void Hold(int index) => _rows[index].Drive.IsHeld = true;
 
     /// <summary>Notes that a drive takes part in holding one.</summary>
-    public void Oppose(int index) => _rows[index].IsOpposing = true;
+    public void Oppose(int index) => _rows[index].Drive.IsOpposing = true;
 
     /// <summary>Whether a drive that opposes others holds one that stalls.</summary>
-    public bool HasHeldStalled() => Array.Exists(_rows, row => row.IsHeld && row.IsStalled);
+    public bool HasHeldStalled() => Array.Exists(_rows, row => row.Drive.IsHeld && row.Drive.IsStalled);
 
     // By how much gears may multiply an inertia, by the square of their ratios, or a load, by less. reach: of angles, by which they compare with ways, m.
     private double ByGears(double reach)

@@ -21,7 +21,7 @@ internal sealed partial class ActiveSet<V>
         for (int i = 0; i < _rows.Length; i++)
         {
             ref ScalarRow scalar = ref _rows[i];
-            bool isOne = scalar.IsApart && scalar.HasEnd && scalar.End.Has(RowFlags.Limit);
+            bool isOne = scalar.Limit.IsApart && scalar.HasEnd && scalar.End.Has(RowFlags.Limit);
             least = isOne ? Math.Min(least, scalar.End.GeometricError) : least;
         }
 
@@ -37,7 +37,7 @@ internal sealed partial class ActiveSet<V>
         for (int i = 0; i < _rows.Length; i++)
         {
             ref ScalarRow scalar = ref _rows[i];
-            bool isOne = scalar.IsApart && scalar.HasEnd && scalar.End.Has(RowFlags.Limit) && scalar.End.GeometricError < 0;
+            bool isOne = scalar.Limit.IsApart && scalar.HasEnd && scalar.End.Has(RowFlags.Limit) && scalar.End.GeometricError < 0;
             double at = isOne ? scalar.ReachedAt(h) : double.PositiveInfinity;
             if (isOne && (first < 0 || at < soonest))
             {
@@ -49,15 +49,15 @@ internal sealed partial class ActiveSet<V>
         return first;
     }
 
-    /// <summary>Whether a limit is to be left in the drift, see <see cref="ScalarRow.IsLeft"/>.</summary>
-    public bool HasLeft() => Array.Exists(_rows, row => row.IsLeft);
+    /// <summary>Whether a limit is to be left in the drift, see <see cref="LimitEvent.IsLeft"/>.</summary>
+    public bool HasLeft() => Array.Exists(_rows, row => row.Limit.IsLeft);
 
     /// <summary>A part begins: nothing is known of the last blow of any limit.</summary>
     public void BeginPart()
     {
         for (int i = 0; i < _rows.Length; i++)
         {
-            _rows[i].Flight = double.PositiveInfinity;
+            _rows[i].Limit.Flight = double.PositiveInfinity;
         }
     }
 
@@ -68,8 +68,8 @@ internal sealed partial class ActiveSet<V>
         _left = left;
         for (int i = 0; i < _rows.Length; i++)
         {
-            _rows[i].IsLeft = false;
-            _rows[i].IsHeldBack = false;
+            _rows[i].Limit.IsLeft = false;
+            _rows[i].Limit.IsHeldBack = false;
         }
     }
 
@@ -85,8 +85,8 @@ internal sealed partial class ActiveSet<V>
     {
         ref ScalarRow scalar = ref _rows[index];
         bool hardlyLeaves = scalar.StartError <= Reach * tolerance && IsThrownBack(scalar, tolerance) && (isSpent || HasEndless());
-        bool isOne = (isAny || hardlyLeaves) && scalar.IsActive && scalar.Built.IsHardLimit && !scalar.IsLeft && !scalar.IsHeldBack;
-        scalar.IsHeldBack |= isOne;
+        bool isOne = (isAny || hardlyLeaves) && scalar.IsActive && scalar.Built.IsHardLimit && !scalar.Limit.IsLeft && !scalar.Limit.IsHeldBack;
+        scalar.Limit.IsHeldBack |= isOne;
         return isOne;
     }
 
@@ -104,8 +104,8 @@ internal sealed partial class ActiveSet<V>
         {
             ref ScalarRow scalar = ref _rows[i];
             bool wasReached = scalar.StartError <= reach;
-            scalar.Flight = (wasReached ? 0 : scalar.Flight) + piece;
-            isAny |= scalar.IsApart && scalar.IsActive && scalar.Built.IsHardLimit && scalar.Built.GeometricError <= reach;
+            scalar.Limit.Flight = (wasReached ? 0 : scalar.Limit.Flight) + piece;
+            isAny |= scalar.Limit.IsApart && scalar.IsActive && scalar.Built.IsHardLimit && scalar.Built.GeometricError <= reach;
         }
 
         _isBlow = isAny;
@@ -117,14 +117,14 @@ internal sealed partial class ActiveSet<V>
             bool isLimit = scalar.IsActive && scalar.Built.IsHardLimit;
             if (isLimit)
             {
-                bool isSpent = scalar.IsApart && scalar.Flight < leastFlight;
+                bool isSpent = scalar.Limit.IsApart && scalar.Limit.Flight < leastFlight;
                 scalar.Kind = RowKind.Limit;
-                scalar.IsApart = false;
+                scalar.Limit.IsApart = false;
                 scalar.ImpulseFirstHalf = 0;
                 scalar.StartSpeed = isSpent ? 0 : StartSpeed(scalar);
                 scalar.State = scalar.IsReached(reach) ? RowState.Free : RowState.AtBound;
             }
-            else if (scalar.AsksForSpeed && scalar.HoldsThroughBlows && !scalar.IsHeld)
+            else if (scalar.AsksForSpeed && scalar.HoldsThroughBlows && !scalar.Drive.IsHeld)
             {
                 // One that stalls pushes back at once what would throw it back.
                 scalar.StartSpeed = StartSpeed(scalar);
@@ -214,11 +214,11 @@ internal sealed partial class ActiveSet<V>
         {
             ref ScalarRow scalar = ref _rows[i];
             scalar.Kind = scalar.FindKind(0);
-            scalar.IsApart = false;
+            scalar.Limit.IsApart = false;
             scalar.ImpulseFirstHalf = 0;
             scalar.ImpulseSecondHalf = 0;
             scalar.StartSpeed = 0;
-            scalar.CorrectionGain = 0;
+            scalar.Spring.CorrectionSpeed = double.NaN;
             _batch.VelocityImpulses[scalar.Index] = 0;
             scalar.State = scalar.Kind == RowKind.Limit && scalar.IsReached(reach) ? RowState.Free : RowState.AtBound;
         }
@@ -238,7 +238,7 @@ internal sealed partial class ActiveSet<V>
                 RowKind.Limit => -Math.Max(0, scalar.StartError) / h,
                 RowKind.SpeedMotor => scalar.Built.VelocityTarget,
                 RowKind.Motion => (scalar.EndError - scalar.StartError) / h,
-                _ => (scalar.RestImpulse - _batch.Work.PositionImpulses[scalar.Index]) / scalar.ImplicitDamping,
+                _ => (scalar.Spring.Law.RestImpulse - _batch.Work.PositionImpulses[scalar.Index]) / scalar.Spring.Law.ImplicitDamping,
             };
         }
     }
@@ -267,7 +267,7 @@ internal sealed partial class ActiveSet<V>
             double slack = Least * (1 + Math.Abs(scalar.StartSpeed));
             double wanted = scalar.Kind switch
             {
-                RowKind.Spring => (scalar.RestImpulse - scalar.ImpulseFirstHalf) / scalar.ImplicitDamping,
+                RowKind.Spring => (scalar.Spring.Law.RestImpulse - scalar.ImpulseFirstHalf) / scalar.Spring.Law.ImplicitDamping,
                 RowKind.Motion => (scalar.EndError - scalar.StartError) / h,
                 _ => scalar.Built.VelocityTarget,
             } - speed;

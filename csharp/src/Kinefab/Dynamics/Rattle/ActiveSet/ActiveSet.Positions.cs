@@ -27,10 +27,10 @@ internal sealed partial class ActiveSet<V>
             {
                 error = scalar.Kind switch
                 {
-                    RowKind.Limit => scalar.End.GeometricError - scalar.Allowed,
+                    RowKind.Limit => scalar.End.GeometricError - scalar.Limit.Allowed,
                     RowKind.Motion => scalar.End.GeometricError - scalar.EndError,
                     RowKind.SpeedMotor => h * (DriftSpeed(scalar) - scalar.Built.VelocityTarget),
-                    _ => h * (DriftSpeed(scalar) + (scalar.ImpulseFirstHalf / scalar.Theta - scalar.RestImpulse) / scalar.ImplicitDamping),
+                    _ => h * (DriftSpeed(scalar) + (scalar.ImpulseFirstHalf / scalar.Theta - scalar.Spring.Law.RestImpulse) / scalar.Spring.Law.ImplicitDamping),
                 };
             }
 
@@ -86,7 +86,7 @@ internal sealed partial class ActiveSet<V>
             if (isBeyond && scalar.State == RowState.Free && scalar.AsksForSpeed && scalar.IsEndless)
             {
                 isAny = true;
-                HasRunAway |= scalar.Slowdowns == 0;
+                HasRunAway |= scalar.Pace.Slowdowns == 0;
             }
         }
 
@@ -138,8 +138,8 @@ internal sealed partial class ActiveSet<V>
         for (int i = 0; i < _rows.Length; i++)
         {
             ref ScalarRow scalar = ref _rows[i];
-            double allowed = scalar.IsActive ? scalar.Allowed : 0;
-            if (!scalar.IsApart && scalar.HasEnd && scalar.End.IsHardLimit && scalar.End.GeometricError - allowed < -Slack * MostPassed * tolerance)
+            double allowed = scalar.IsActive ? scalar.Limit.Allowed : 0;
+            if (!scalar.Limit.IsApart && scalar.HasEnd && scalar.End.IsHardLimit && scalar.End.GeometricError - allowed < -Slack * MostPassed * tolerance)
             {
                 return true;
             }
@@ -180,7 +180,7 @@ internal sealed partial class ActiveSet<V>
     /// <summary>
     /// Moves rows that have left their state; true when one had to. Where the states come round again, one row at a time moves from then on; where
     /// they do so once more, a limit that draws while it is held and is passed while it is not is left by its joint and come back to within
-    /// the drift: it is apart, see <see cref="ScalarRow.IsLeft"/>.
+    /// the drift: it is apart, see <see cref="LimitEvent.IsLeft"/>.
     /// </summary>
     public bool UpdatePositions(int pass, double tolerance)
     {
@@ -253,10 +253,10 @@ internal sealed partial class ActiveSet<V>
         {
             ref ScalarRow scalar = ref _rows[i];
             scalar.PendingImpulse = 0;
-            if (scalar.Kind == RowKind.Limit && scalar.Allowed == 0 && scalar.HasDrawn && scalar.State == RowState.AtBound && LeavesBound(scalar, 0, 0, tolerance))
+            if (scalar.Kind == RowKind.Limit && scalar.Limit.Allowed == 0 && scalar.Limit.HasDrawn && scalar.State == RowState.AtBound && LeavesBound(scalar, 0, 0, tolerance))
             {
-                scalar.IsLeft = true;
-                scalar.IsApart = true;
+                scalar.Limit.IsLeft = true;
+                scalar.Limit.IsApart = true;
                 isAny = true;
             }
         }
@@ -269,7 +269,7 @@ internal sealed partial class ActiveSet<V>
         switch (scalar.Kind)
         {
             case RowKind.Limit:
-                return !scalar.IsApart && scalar.End.GeometricError - scalar.Allowed < -tolerance;
+                return !scalar.Limit.IsApart && scalar.End.GeometricError - scalar.Limit.Allowed < -tolerance;
             case RowKind.SpeedMotor:
                 double excess = DriftSpeed(scalar) - scalar.Built.VelocityTarget;
                 return (scalar.ImpulseFirstHalf >= high && excess > tolerance) || (scalar.ImpulseFirstHalf <= low && excess < -tolerance);
@@ -277,8 +277,8 @@ internal sealed partial class ActiveSet<V>
                 double ahead = scalar.End.GeometricError - scalar.EndError;
                 return (scalar.ImpulseFirstHalf >= high && ahead > tolerance) || (scalar.ImpulseFirstHalf <= low && ahead < -tolerance);
             default:
-                double wanted = scalar.RestImpulse - scalar.ImplicitDamping * DriftSpeed(scalar);
-                double slack = scalar.ImplicitDamping * tolerance;
+                double wanted = scalar.Spring.Law.RestImpulse - scalar.Spring.Law.ImplicitDamping * DriftSpeed(scalar);
+                double slack = scalar.Spring.Law.ImplicitDamping * tolerance;
                 return (scalar.ImpulseFirstHalf >= high && wanted < scalar.High - slack) || (scalar.ImpulseFirstHalf <= low && wanted > scalar.Low + slack);
         }
     }
@@ -298,7 +298,7 @@ internal sealed partial class ActiveSet<V>
     private void HoldAtBound(ref ScalarRow scalar, bool isAbove)
     {
         double impulse = scalar.BoundShare * (isAbove ? scalar.High : scalar.Low);
-        scalar.HasDrawn = scalar.Kind == RowKind.Limit;
+        scalar.Limit.HasDrawn = scalar.Kind == RowKind.Limit;
         scalar.PendingImpulse = impulse - scalar.ImpulseFirstHalf;
         scalar.ImpulseFirstHalf = impulse;
         scalar.State = RowState.AtBound;

@@ -17,7 +17,7 @@ internal sealed partial class ActiveSet<V>
             ref ScalarRow scalar = ref _rows[i];
             _batch.VelocityImpulses[scalar.Index] = 0;
             scalar.ImpulseSecondHalf = 0;
-            scalar.IsStalled = scalar.IsHeld ? scalar.IsActive && !IsMoved(scalar, tolerance)
+            scalar.Drive.IsStalled = scalar.Drive.IsHeld ? scalar.IsActive && !IsMoved(scalar, tolerance)
                 : scalar.AsksForSpeed && scalar.State == RowState.AtBound && scalar.IsEndless;
             if (!scalar.IsActive || scalar.Kind == RowKind.None)
             {
@@ -29,7 +29,7 @@ internal sealed partial class ActiveSet<V>
             {
                 case RowKind.Spring:
                     SetImpulseSecondHalf(ref scalar, scalar.ImpulseFirstHalf * (1 - scalar.FirstShare) / scalar.FirstShare);
-                    scalar.CorrectionSpeed = scalar.State == RowState.Free ? (scalar.RestImpulse - scalar.ImpulseFirstHalf / scalar.Theta) / scalar.ImplicitDamping : double.NaN;
+                    scalar.Spring.CorrectionSpeed = scalar.State == RowState.Free ? (scalar.Spring.Law.RestImpulse - scalar.ImpulseFirstHalf / scalar.Theta) / scalar.Spring.Law.ImplicitDamping : double.NaN;
                     scalar.State = RowState.AtBound;
                     break;
                 case RowKind.SpeedMotor:
@@ -45,7 +45,7 @@ internal sealed partial class ActiveSet<V>
 
                     break;
                 default:
-                    scalar.State = !scalar.IsApart && scalar.IsReached(tolerance) ? RowState.Free : RowState.AtBound;
+                    scalar.State = !scalar.Limit.IsApart && scalar.IsReached(tolerance) ? RowState.Free : RowState.AtBound;
                     break;
             }
         }
@@ -94,8 +94,8 @@ internal sealed partial class ActiveSet<V>
                 else if (_isBlow)
                 {
                     // What it takes; of one that stalls, to the side to which it pushes.
-                    low = scalar.IsStalled && scalar.ImpulseFirstHalf > 0 ? 0 : double.NegativeInfinity;
-                    high = scalar.IsStalled && scalar.ImpulseFirstHalf < 0 ? 0 : double.PositiveInfinity;
+                    low = scalar.Drive.IsStalled && scalar.ImpulseFirstHalf > 0 ? 0 : double.NegativeInfinity;
+                    high = scalar.Drive.IsStalled && scalar.ImpulseFirstHalf < 0 ? 0 : double.PositiveInfinity;
                 }
 
                 if (scalar.ImpulseSecondHalf < low || scalar.ImpulseSecondHalf > high)
@@ -105,7 +105,7 @@ internal sealed partial class ActiveSet<V>
                     isChanged = true;
                 }
             }
-            else if (scalar.Kind == RowKind.Limit && !scalar.IsApart && scalar.IsReached(tolerance)
+            else if (scalar.Kind == RowKind.Limit && !scalar.Limit.IsApart && scalar.IsReached(tolerance)
                 && Impulses<V>.Speed(_batch, scalar.Block, scalar.Built) < TargetSpeed(scalar) - tolerance)
             {
                 scalar.State = RowState.Free;
@@ -123,7 +123,7 @@ internal sealed partial class ActiveSet<V>
         for (int i = 0; i < _rows.Length; i++)
         {
             ref ScalarRow scalar = ref _rows[i];
-            if (scalar.IsActive && scalar.Kind == RowKind.Spring && scalar.CorrectionGain > 0 && !double.IsNaN(scalar.CorrectionSpeed))
+            if (scalar.IsActive && scalar.Kind == RowKind.Spring && scalar.Spring.Law.CorrectionGain > 0 && !double.IsNaN(scalar.Spring.CorrectionSpeed))
             {
                 scalar.State = RowState.Free;
                 isAny = true;
@@ -140,7 +140,7 @@ internal sealed partial class ActiveSet<V>
         {
             ref ScalarRow scalar = ref _rows[i];
             bool isAnswer = scalar.Kind == RowKind.Spring && scalar.State == RowState.Free;
-            _batch.Work.Solution[scalar.Index] -= isAnswer ? answers[scalar.Index] / scalar.CorrectionGain : 0;
+            _batch.Work.Solution[scalar.Index] -= isAnswer ? answers[scalar.Index] / scalar.Spring.Law.CorrectionGain : 0;
         }
     }
 
@@ -186,12 +186,12 @@ internal sealed partial class ActiveSet<V>
     {
         if (scalar.Kind == RowKind.Spring)
         {
-            return scalar.CorrectionSpeed;
+            return scalar.Spring.CorrectionSpeed;
         }
 
         if (scalar.Kind != RowKind.Limit)
         {
-            return scalar.IsStalled ? scalar.StartSpeed : scalar.Built.VelocityTarget;
+            return scalar.Drive.IsStalled ? scalar.StartSpeed : scalar.Built.VelocityTarget;
         }
 
         return scalar.Built.Bounces(-scalar.StartSpeed) ? -scalar.Built.Restitution * scalar.StartSpeed : 0;

@@ -28,7 +28,7 @@ internal sealed partial class ActiveSet<V>
     {
         for (int i = 0; i < _rows.Length; i++)
         {
-            _rows[i].Work = 0;
+            _rows[i].Spring.Work = 0;
         }
     }
 
@@ -38,7 +38,7 @@ internal sealed partial class ActiveSet<V>
         for (int i = 0; i < _rows.Length; i++)
         {
             ref ScalarRow scalar = ref _rows[i];
-            scalar.Work += scalar.Kind == RowKind.Spring && !HasPotential(scalar) ? scalar.ImpulseFirstHalf / scalar.FirstShare * DriftSpeed(scalar) : 0;
+            scalar.Spring.Work += scalar.Kind == RowKind.Spring && !HasPotential(scalar) ? scalar.ImpulseFirstHalf / scalar.FirstShare * DriftSpeed(scalar) : 0;
         }
     }
 
@@ -48,7 +48,7 @@ internal sealed partial class ActiveSet<V>
         double sum = 0;
         for (int i = 0; i < _rows.Length; i++)
         {
-            sum += _rows[i].Work;
+            sum += _rows[i].Spring.Work;
         }
 
         return sum;

@@ -78,12 +78,12 @@ internal sealed partial class ActiveSet<V>
             scalar.Theta = isImplicit ? 1 : 0.5;
             scalar.Kind = scalar.FindKind(SoftReach(scalar, h, tolerance));
             scalar.StartSpeed = scalar.IsActive ? StartSpeed(scalar) : 0;
-            scalar.Allowed = scalar.Kind == RowKind.Limit && scalar.StartError < -ScalarRow.MostClosedByDrift ? scalar.StartError : 0;
-            bool isReached = scalar.Allowed < 0 || (!scalar.IsLeft && (scalar.IsHeldBack || (scalar.StartError <= Reach * tolerance && !IsThrownBack(scalar, tolerance))));
-            scalar.IsApart = LocatesEvents && (!scalar.IsActive || (scalar.Built.Has(RowFlags.Limit) && !isReached));
-            scalar.HasDrawn = false;
-            scalar.Kind = scalar.IsHeld ? RowKind.None : scalar.Kind;
-            if (scalar.Kind == RowKind.None || scalar.IsApart)
+            scalar.Limit.Allowed = scalar.Kind == RowKind.Limit && scalar.StartError < -ScalarRow.MostClosedByDrift ? scalar.StartError : 0;
+            bool isReached = scalar.Limit.Allowed < 0 || (!scalar.Limit.IsLeft && (scalar.Limit.IsHeldBack || (scalar.StartError <= Reach * tolerance && !IsThrownBack(scalar, tolerance))));
+            scalar.Limit.IsApart = LocatesEvents && (!scalar.IsActive || (scalar.Built.Has(RowFlags.Limit) && !isReached));
+            scalar.Limit.HasDrawn = false;
+            scalar.Kind = scalar.Drive.IsHeld ? RowKind.None : scalar.Kind;
+            if (scalar.Kind == RowKind.None || scalar.Limit.IsApart)
             {
                 scalar.State = RowState.AtBound;
                 scalar.ImpulseFirstHalf = 0;
@@ -116,7 +116,7 @@ internal sealed partial class ActiveSet<V>
             scalar.ImpulseFirstHalf = _batch.VelocityImpulses[scalar.Index];
             if (scalar.Kind == RowKind.Limit)
             {
-                scalar.State = scalar.ImpulseFirstHalf > 0 || scalar.StartError < scalar.Allowed ? RowState.Free : RowState.AtBound;
+                scalar.State = scalar.ImpulseFirstHalf > 0 || scalar.StartError < scalar.Limit.Allowed ? RowState.Free : RowState.AtBound;
             }
             else if (IsWithin(scalar, scalar.ImpulseFirstHalf))
             {
@@ -163,7 +163,7 @@ internal sealed partial class ActiveSet<V>
         {
             ref ScalarRow scalar = ref _rows[i];
             scalar.Kind = scalar.IsActive && scalar.Built.IsHardLimit ? RowKind.Limit : RowKind.None;
-            double error = scalar.Built.GeometricError - (keepsAllowed ? scalar.Allowed : 0);
+            double error = scalar.Built.GeometricError - (keepsAllowed ? scalar.Limit.Allowed : 0);
             bool isPassed = scalar.Kind == RowKind.Limit && error < 0;
             scalar.State = isPassed ? RowState.Free : RowState.AtBound;
             _batch.Work.Error[scalar.Index] = isPassed ? error : 0;
@@ -179,8 +179,8 @@ internal sealed partial class ActiveSet<V>
         for (int i = 0; i < _rows.Length; i++)
         {
             ref ScalarRow scalar = ref _rows[i];
-            scalar.Allowed = scalar.IsActive && scalar.Built.IsHardLimit ? Math.Min(0, scalar.Built.GeometricError) : 0;
-            isAny |= scalar.Allowed < 0;
+            scalar.Limit.Allowed = scalar.IsActive && scalar.Built.IsHardLimit ? Math.Min(0, scalar.Built.GeometricError) : 0;
+            isAny |= scalar.Limit.Allowed < 0;
         }
 
         return isAny;
@@ -219,7 +219,7 @@ internal sealed partial class ActiveSet<V>
         for (int i = 0; i < _rows.Length; i++)
         {
             ref ScalarRow scalar = ref _rows[i];
-            if (scalar.IsActive && scalar.Built.IsHardLimit && scalar.Built.GeometricError < scalar.Allowed - ScalarRow.MostClosedByDrift)
+            if (scalar.IsActive && scalar.Built.IsHardLimit && scalar.Built.GeometricError < scalar.Limit.Allowed - ScalarRow.MostClosedByDrift)
             {
                 return true;
             }
@@ -249,7 +249,7 @@ internal sealed partial class ActiveSet<V>
     public int NextHeldOpen(int from)
     {
         int i = from;
-        while (i < _rows.Length && _rows[i].Allowed == 0)
+        while (i < _rows.Length && _rows[i].Limit.Allowed == 0)
         {
             i++;
         }
@@ -263,7 +263,7 @@ internal sealed partial class ActiveSet<V>
         double most = -1;
         for (int i = 0; i < _rows.Length; i++)
         {
-            most = _rows[i].IsStalled ? Math.Max(most, Weight(_rows[i])) : most;
+            most = _rows[i].Drive.IsStalled ? Math.Max(most, Weight(_rows[i])) : most;
         }
 
         return most;
@@ -318,7 +318,7 @@ internal sealed partial class ActiveSet<V>
                     _batch.Matrix[cell] = _batch.Matrix[cell] * (1 + ScalarRow.RigidShare) + ScalarRow.RigidShare * _batch.Work.HubResponse[scalar.Index];
                     break;
                 default:
-                    _batch.Matrix[cell] += 1 / (isDrift ? scalar.Theta * scalar.ImplicitDamping : scalar.CorrectionGain);
+                    _batch.Matrix[cell] += 1 / (isDrift ? scalar.Theta * scalar.Spring.Law.ImplicitDamping : scalar.Spring.Law.CorrectionGain);
                     break;
             }
         }
@@ -360,7 +360,7 @@ internal sealed partial class ActiveSet<V>
             {
                 ProjectedAs.Inactive => vector[k],
                 ProjectedAs.Rigid => product[k],
-                _ => product[k] + vector[k] / (isDrift ? scalar.Theta * scalar.ImplicitDamping : scalar.CorrectionGain),
+                _ => product[k] + vector[k] / (isDrift ? scalar.Theta * scalar.Spring.Law.ImplicitDamping : scalar.Spring.Law.CorrectionGain),
             };
         }
     }

@@ -48,7 +48,7 @@ internal enum ProjectedAs : byte
 /// <summary>
 /// One row whose impulse is a monotone piecewise-linear function of its speed. Impulse p is what the drift gets of it.
 /// Spring: the force -k C + d (vT - v) is taken at the share Theta of the step, C = C0 + Theta h v, and its impulse
-/// l = h (d vT - k C0) - G v, G = h (d + Theta h k) the <see cref="ImplicitDamping"/>, is given by Theta before the drift and the rest after it:
+/// l = h (d vT - k C0) - G v, G = h (d + Theta h k) the <see cref="SpringLaw.ImplicitDamping"/>, is given by Theta before the drift and the rest after it:
 /// Theta = 1/2 is the implicit midpoint rule, second order and without numerical damping; Theta = 1 is implicit Euler.
 /// </summary>
 internal struct ScalarRow
@@ -64,9 +64,6 @@ internal struct ScalarRow
 
     /// <summary>A bound of force beyond this is none: Unity's own "no limit" is the largest float, 3.4e38.</summary>
     public const double Endless = 1e30;
-
-    /// <summary>By how much a drive may become faster in a step.</summary>
-    public const double SlowerBy = 2;
 
     public RowKind Kind;
     public RowState State;
@@ -92,77 +89,11 @@ internal struct ScalarRow
     /// <summary>C that a prescribed motion is to have at the end of the step, m or rad.</summary>
     public double EndError;
 
-    /// <summary>
-    /// C up to which a limit may stand passed, not above 0: where it stood when closing the pose had failed, as limits that contradict each
-    /// other or the rest of the joints leave it. It is passed no further, and comes back as far as the others let it.
-    /// </summary>
-    public double Allowed;
-
-    /// <summary>
-    /// Whether a limit is not reached at the start of the step, or has no row there, as in the middle of a cone: the drift is not held by it,
-    /// and where it reaches it, see Substep, the joint strikes.
-    /// </summary>
-    public bool IsApart;
-
-    /// <summary>Whether a limit that is reached at the start of the drift is left in it and passed at its end: it is apart until this piece has ended.</summary>
-    public bool IsLeft;
-
-    /// <summary>Whether a limit that every drift passes is held from its start on: see <see cref="ActiveSet{V}.HoldBack"/>.</summary>
-    public bool IsHeldBack;
-
-    /// <summary>Whether a limit was let go in this drift, as its impulse drew.</summary>
-    public bool HasDrawn;
-
     /// <summary>Speed of the row at the start of the step, m/s or rad/s; in an impact, before it.</summary>
     public double StartSpeed;
 
-    /// <summary>Whether the joints hold a drive without limit of force, alone or with other such drives: see <see cref="HeldDrives"/>.</summary>
-    public bool IsHeld;
-
-    /// <summary>Whether it is one of those other drives.</summary>
-    public bool IsOpposing;
-
-    /// <summary>Whether a drive without limit of force gave, in the last piece of a part, all that <see cref="BoundForce"/> leaves it.</summary>
-    public bool IsStalled;
-
-    /// <summary>How often the speed of a drive without limit of force was halved, as the mechanism did not follow it.</summary>
-    public int Slowdowns;
-
-    /// <summary>How often, when the mechanism last followed it.</summary>
-    public int FollowedSlowdowns;
-
-    /// <summary>Which way it was asked to go then: the sign of its speed.</summary>
-    public int SlowdownSide;
-
-    /// <summary>What the mechanism is to a drive without limit of force at the end of a step, kg or kg m^2; 0: it is not known.</summary>
-    public double Inertia;
-
-    /// <summary>Speed of the row where the step began, before which its pace was set.</summary>
-    public double PaceSpeed;
-
-    /// <summary>Whether a drive rested at the end of the last step.</summary>
-    public bool HasRested;
-
-    /// <summary>What freedom a drive that rests had when it came to rest, see <see cref="HeldDrives.Wake"/>; NaN: it is not measured yet.</summary>
-    public double RestingFreedom;
-
-    /// <summary>Time since the joint left its limit, as far as it was in this part of a step; else infinite, s.</summary>
-    public double Flight;
-
-    /// <summary>Share of the step at which a spring's force is taken, and of its impulse that acts before the drift: 1/2 to 1.</summary>
+    /// <summary>Share of the step at which a row's force is taken, and of its impulse that acts before the drift: 1/2 to 1.</summary>
     public double Theta;
-
-    /// <summary>What a spring's impulse falls by for each unit of speed, kg or kg m^2.</summary>
-    public double ImplicitDamping;
-
-    /// <summary>Impulse of a spring at v = 0, N s or N m s.</summary>
-    public double RestImpulse;
-
-    /// <summary>By how much a spring that the step is too long to follow holds its speed at the drift's, see <see cref="StiffSpringCorrection"/>.</summary>
-    public double CorrectionGain;
-
-    /// <summary>That speed, by the impulse that the spring gave at it; NaN of one at its limit.</summary>
-    public double CorrectionSpeed;
 
     /// <summary>Bounds of the whole step's impulse, N s or N m s.</summary>
     public double Low;
@@ -175,8 +106,17 @@ internal struct ScalarRow
     /// <summary>Change of <see cref="ImpulseFirstHalf"/> when it came to its bound, until the momenta have it.</summary>
     public double PendingImpulse;
 
-    /// <summary>Work of a spring without potential since the account was opened, J.</summary>
-    public double Work;
+    /// <summary>What it is as a limit.</summary>
+    public LimitEvent Limit;
+
+    /// <summary>As a spring.</summary>
+    public ImplicitSpring Spring;
+
+    /// <summary>As a drive without limit of force.</summary>
+    public DriveStall Drive;
+
+    /// <summary>And how fast it goes as such.</summary>
+    public DrivePace Pace;
 
     /// <summary>Block, row in the block and row in the vectors.</summary>
     public int Block;
@@ -194,9 +134,6 @@ internal struct ScalarRow
 
     /// <summary>Whether a drive's force has no bound to a side.</summary>
     public readonly bool IsEndless => Math.Max(Built.Maximum, -Built.Minimum) > Endless;
-
-    /// <summary>What is left of the speed of a drive that was slowed down.</summary>
-    public readonly double Pace => Slowdowns == 0 ? 1 : Math.Pow(SlowerBy, -Slowdowns);
 
     /// <summary>Whether it is there and a motor or prescribed motion whose force has no bound to a side: a spring's follows from where it is.</summary>
     public readonly bool IsEndlessDrive => IsActive && Built.Has(RowFlags.Drive) && !Built.Has(RowFlags.Spring) && IsEndless;
@@ -233,7 +170,7 @@ internal struct ScalarRow
 
     /// <summary>Whether the joint stands at its limit where the row was last built, or beyond it.</summary>
     /// <param name="reach">C up to which it does, m or rad.</param>
-    public readonly bool IsReached(double reach) => Built.GeometricError - Allowed <= reach;
+    public readonly bool IsReached(double reach) => Built.GeometricError - Limit.Allowed <= reach;
 
     /// <summary>
     /// About where in the drift a limit that is passed at its end is reached, as a share of it: where the parabola through C and its rate at the start
@@ -267,35 +204,7 @@ internal struct ScalarRow
 
     /// <summary>Slows a drive down, or lets it go faster again.</summary>
     /// <param name="times">How often it is slowed down in all.</param>
-    public void SlowDown(int times)
-    {
-        if (times != Slowdowns)
-        {
-            double before = Pace;
-            Slowdowns = times;
-            Scale(ref Built, Pace / before);
-        }
-    }
-
-    /// <summary>A drive that was slowed down asks for its speed, or for the rate at which its C is to fall, at that pace.</summary>
-    /// <param name="row">As its joint wrote it.</param>
-    public readonly void SetPace(ref ConstraintRow row)
-    {
-        if (Slowdowns > 0)
-        {
-            Scale(ref row, Pace);
-        }
-    }
-
-    // A spring has no pace: its row may be one that was a drive's.
-    private static void Scale(ref ConstraintRow row, double factor)
-    {
-        if (row.Has(RowFlags.Drive) && !row.Has(RowFlags.Spring))
-        {
-            row.VelocityTarget *= factor;
-            row.Stiffness *= factor;
-        }
-    }
+    public void SlowDown(int times) => Pace.SlowDown(times, ref Built);
 
     /// <summary>The speed that a drive is asked for, 1/s of its C.</summary>
     /// <param name="h">Step, s.</param>
@@ -326,11 +235,8 @@ internal struct ScalarRow
     public void SetSpring(double h, double response, bool isImplicit)
     {
         var gains = new DriveModel { Stiffness = Built.Stiffness, Damping = Built.Damping, IsAcceleration = Built.Has(RowFlags.AccelerationSpring) };
-        var law = new SpringLaw(gains, Built.VelocityTarget, StartError, h, response, isImplicit);
-        Theta = law.Theta;
-        CorrectionGain = law.CorrectionGain;
-        ImplicitDamping = law.ImplicitDamping;
-        RestImpulse = law.RestImpulse;
+        Spring.Law = new SpringLaw(gains, Built.VelocityTarget, StartError, h, response, isImplicit);
+        Theta = Spring.Law.Theta;
     }
 }
 
@@ -345,6 +251,6 @@ internal readonly struct WarmStart
     {
         ImpulseFirstHalf = scalar.ImpulseFirstHalf;
         State = scalar.State;
-        Work = scalar.Work;
+        Work = scalar.Spring.Work;
     }
 }

@@ -60,7 +60,7 @@ internal sealed class ScalarRows
         scalar.IsActive = true;
         _isFactored &= scalar.ProjectedAs == ProjectedAs.Inactive || row.HasJacobianOf(scalar.Built);
         scalar.Built = row;
-        scalar.SetPace(ref scalar.Built);
+        scalar.Pace.Slow(ref scalar.Built);
     }
 
     /// <summary>The bodies have moved or the matrix was changed: it is to be assembled anew.</summary>
@@ -82,7 +82,7 @@ internal sealed class ScalarRows
         ref ScalarRow scalar = ref _rows[_first[block] + slot];
         scalar.HasEnd = true;
         scalar.End = row;
-        scalar.SetPace(ref scalar.End);
+        scalar.Pace.Slow(ref scalar.End);
     }
 
     /// <summary>A block's rows at the end of the drift as those of the pose that is built.</summary>
@@ -108,7 +108,7 @@ internal sealed class ScalarRows
             _rows[i].ImpulseFirstHalf = 0;
             _rows[i].ImpulseSecondHalf = 0;
             _rows[i].State = RowState.AtBound;
-            _rows[i].Allowed = 0;
+            _rows[i].Limit.Allowed = 0;
         }
     }
 
@@ -152,7 +152,7 @@ internal sealed class ScalarRows
         {
             _rows[i].ImpulseFirstHalf = from[i].ImpulseFirstHalf;
             _rows[i].State = from[i].State;
-            _rows[i].Work = from[i].Work;
+            _rows[i].Spring.Work = from[i].Work;
         }
 
         Invalidate();

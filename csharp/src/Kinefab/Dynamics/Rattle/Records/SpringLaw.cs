@@ -30,9 +30,10 @@ internal readonly struct SpringLaw
 
     public double Theta { get; }
 
+    /// <summary>What the impulse falls by for each unit of speed, kg or kg m^2.</summary>
     public double ImplicitDamping { get; }
 
-    /// <summary>Impulse at v = 0.</summary>
+    /// <summary>Impulse at v = 0, N s or N m s.</summary>
     public double RestImpulse { get; }
 
     /// <summary>By how much a spring that the step is too long to follow holds its speed at the drift's, see <see cref="StiffSpringCorrection"/>.</summary>

@@ -92,7 +92,7 @@ internal static class HeldDrives
     {
         for (int i = scalars.NextResting(0); i >= 0; i = scalars.NextResting(i + 1))
         {
-            double freedom = Freedom(batch, scalars, exact, i), atFirst = scalars.Row(i).RestingFreedom;
+            double freedom = Freedom(batch, scalars, exact, i), atFirst = scalars.Row(i).Pace.RestingFreedom;
             if (double.IsNaN(atFirst))
             {
                 scalars.NoteFreedom(i, freedom);

@@ -125,7 +125,7 @@ internal sealed class PositionProjection
         return false;
     }
 
-    // Limits that cannot be closed with the rest stay passed as far as they are: see ScalarRow.Allowed.
+    // Limits that cannot be closed with the rest stay passed as far as they are: see LimitEvent.Allowed.
     private bool TryWithLimitsAsTheyStand(double tolerance)
     {
         FreeMotion<ScalarLane>.Stay(_batch);

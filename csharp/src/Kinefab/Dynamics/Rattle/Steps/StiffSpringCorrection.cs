@@ -6,7 +6,7 @@ namespace Kinefab.Dynamics.Rattle;
 /// <summary>
 /// A spring too stiff for the step spends its impulse before the drift (<see cref="ScalarRow.Theta"/> above 1/2). The half of the
 /// other forces that acts after it meets no answer and leaves a speed of h F / 2 m, even of a body that stands still; the
-/// next drift takes it up. What a step shows has that answer, -<see cref="ScalarRow.CorrectionGain"/> (v' - v) against the drift's speed v, with the rows
+/// next drift takes it up. What a step shows has that answer, -<see cref="SpringLaw.CorrectionGain"/> (v' - v) against the drift's speed v, with the rows
 /// held; where the next step begins it is taken back, so that motion and account of energy are those of the impulses alone.
 /// </summary>
 internal sealed class StiffSpringCorrection

@@ -103,10 +103,10 @@ internal sealed partial class StepController
     }
 
     // Of the first part that no method could take.
-    private void MeasureWorstResidual(double tolerance)
+    private void MeasureWorstResidual()
     {
         _worst = -1;
-        _worstError = tolerance;
+        _worstError = _tolerance;
         for (int i = 0; i < _batch.Work.Error.Length; i++)
         {
             double error = Math.Abs(_batch.Work.Error[i]);
@@ -120,9 +120,9 @@ internal sealed partial class StepController
     }
 
     // Of the pose that is built; its rows have to be built anew after it.
-    private void FindTroubles(double tolerance)
+    private void FindTroubles()
     {
-        _troubles = _batch.ActiveSet?.Troubles(ActiveSet<ScalarLane>.Reach * tolerance) ?? StepTroubles.None;
+        _troubles = _batch.ActiveSet?.Troubles(ActiveSet<ScalarLane>.Reach * _tolerance) ?? StepTroubles.None;
         _troubles |= _closure.IsOpen() ? StepTroubles.Open : StepTroubles.None;
     }
 }

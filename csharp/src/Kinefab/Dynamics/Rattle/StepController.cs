@@ -47,13 +47,16 @@ internal sealed partial class StepController
     private const double KeptSpeed = 0.9;
 
     private readonly LaneBatch<ScalarLane> _batch;
-    private readonly ConjugateGradient _exact;
+    private readonly ConjugateGradient _conjugateGradient;
     private readonly Substep _part;
     private readonly PositionProjection _closure;
     private readonly Snapshot _start;
     private readonly Snapshot?[] _substepStarts = new Snapshot?[LastDepth + 1];
     private int _failures;
     private int _dampedInStep;
+    private bool _isMoved;
+    private bool _hasSettled;
+    private bool _hasLookedForHeld;
     private bool _isTrial;
     private bool _hasGivenUp;
     private bool _hasArrived;
@@ -75,9 +78,9 @@ internal sealed partial class StepController
     public StepController(LaneBatch<ScalarLane> batch)
     {
         _batch = batch;
-        _exact = new ConjugateGradient(batch);
-        _part = new Substep(batch, _exact);
-        _closure = new PositionProjection(batch, _exact);
+        _conjugateGradient = new ConjugateGradient(batch);
+        _part = new Substep(batch, _conjugateGradient);
+        _closure = new PositionProjection(batch, _conjugateGradient);
         _start = new Snapshot(batch);
     }
 
@@ -102,138 +105,19 @@ internal sealed partial class StepController
             return;
         }
 
-        Array.Clear(_batch.Work.TotalImpulses, 0, _batch.Work.TotalImpulses.Length);
-        _batch.ActiveSet?.ClearWork();
-        _batch.Work.CompliantWork[0] = 0;
-        _batch.Work.DrivenWork = 0;
-        _part.Begin(dt);
-        _part.Tries = 0;
-        _tolerance = tolerance;
-        _failures = 0;
-        _elapsed = 0;
-        _dampedInStep = 0;
-        _hasMoved = false;
-        _part.IsEager = hasFailed && _batch.ActiveSet != null;
-        _isAudited = LaneEnergy<ScalarLane>.IsKnown(_batch, 0);
-        _batch.ActiveSet?.BeginPace(dt);
-        isMoved |= _batch.ActiveSet != null && _batch.ActiveSet.IsNewlyPassed();
-        _part.HoldsPassedLimits = false;
-        HasClosed = isMoved && _closure.TryClose(tolerance);
-        _forbidden = isMoved && !_batch.Shape.IsInconsistent ? InitialVelocityProjection.Find(_batch, out _forbiddenSpeed) : -1;
-        bool hasSettled = hasFailed || HasClosed || HasForbiddenSpeed;
-        if (hasSettled)
+        Begin(dt, tolerance, cut.IsSingular, hasFailed);
+        CloseStartPose(isMoved);
+        if (hasFailed || HasClosed || HasForbiddenSpeed)
         {
-            CloseInitialState(isMoved);
+            ProjectStartSpeeds();
         }
 
         int stops = DampedSteps;
-        double demand = StepLimit.Of(_batch, dt);
-        int halvings = Math.Max(cut.Halvings, hasFailed && !_part.IsEager ? 1 : 0);
-        if (demand > 1 << halvings && _batch.ActiveSet != null && _batch.ActiveSet.RestOn())
-        {
-            demand = StepLimit.Of(_batch, dt);
-        }
-
-        _isSingular = cut.IsSingular;
-        _firstLoss = 0;
-        while (halvings < MaxHalvings && demand > 1 << halvings)
-        {
-            halvings++;
-        }
-
-        _start.Save(_batch);
-        Audit(dt);
-        _dt = dt;
-        bool hasHalvedThere = false;
-        bool hasLooked = _batch.ActiveSet != null && _batch.ActiveSet.HasHeld();
-        if (hasLooked)
-        {
-            FindHeldDrives(dt);
-        }
-
-        if (_batch.ActiveSet != null && _batch.ActiveSet.NextResting(0) >= 0)
-        {
-            HeldDrives.Wake(_batch, _batch.ActiveSet, _exact);
-            Return(_start, dt);
-        }
-
-        while (true)
-        {
-            bool isDone = TryEvenParts(dt, halvings, tolerance);
-            if (isDone && (hasLooked || _batch.ActiveSet is not { HasRunAway: true }))
-            {
-                break;
-            }
-
-            Return(_start, dt);
-            _hasMoved = false;
-            if (isDone)
-            {
-                hasLooked = true;
-                FindHeldDrives(dt);
-                continue;
-            }
-
-            bool wasEager = _part.IsEager;
-            _part.IsEager = true;
-            if (_batch.ActiveSet != null && _batch.ActiveSet.RestOn())
-            {
-                _start.Save(_batch);
-                continue;
-            }
-
-            if (!hasLooked && _batch.ActiveSet != null && _batch.ActiveSet.HasEndless())
-            {
-                hasLooked = true;
-                FindHeldDrives(dt);
-            }
-
-            if (!hasSettled)
-            {
-                hasSettled = true;
-                CloseInitialState(isMoved);
-                _start.Save(_batch);
-                Audit(dt);
-            }
-
-            if (wasEager && !hasHalvedThere && IsInOnePlace())
-            {
-                hasHalvedThere = true;
-                if (TryHalving(dt, halvings, tolerance))
-                {
-                    break;
-                }
-
-                Return(_start, dt);
-            }
-
-            if (halvings >= MostEven)
-            {
-                SubstepUntilSolved(dt, halvings, tolerance);
-                break;
-            }
-
-            if (_isSingular != cut.IsSingular)
-            {
-                cut.IsSingular = true;
-                halvings = _firstLossHalvings;
-            }
-            else if (wasEager)
-            {
-                halvings++;
-            }
-        }
-
-        cut.IsSingular = _isSingular && !new EnergyAudit(_batch, dt, tolerance).IsKept(_energy, false, MostEnergyChange);
-        Enter(ref cut.Energy);
-        bool comesToRest = false;
-        cut.IsSlowedDown = _batch.ActiveSet != null && _batch.ActiveSet.EndPace(dt, tolerance / dt, out comesToRest);
-        if (!comesToRest)
-        {
-            cut.Record(halvings, demand);
-        }
-
-        _part.SetLength(dt);
+        int halvings = FirstHalvings(hasFailed && !_part.IsEager ? Math.Max(cut.Halvings, 1) : cut.Halvings, out double demand);
+        SaveStart();
+        FindDrivesThatMove();
+        halvings = TakeParts(halvings, ref cut);
+        End(ref cut, halvings, demand);
         if (_dampedInStep == 0 || _hasMoved)
         {
             still.Forget();
@@ -244,10 +128,197 @@ internal sealed partial class StepController
         still.Remember(new StepVerdict { Stops = DampedSteps - stops, Worst = _worst, Error = _worstError, Troubles = _troubles });
     }
 
-    private void FindHeldDrives(double dt)
+    private void Begin(double dt, double tolerance, bool isSingular, bool hasFailed)
     {
-        HeldDrives.Find(_batch, _batch.ActiveSet!, _exact);
-        Return(_start, dt);
+        Array.Clear(_batch.Work.TotalImpulses, 0, _batch.Work.TotalImpulses.Length);
+        _batch.ActiveSet?.ClearWork();
+        _batch.Work.CompliantWork[0] = 0;
+        _batch.Work.DrivenWork = 0;
+        _part.Begin(dt);
+        _part.Tries = 0;
+        _part.IsEager = hasFailed && _batch.ActiveSet != null;
+        _part.HoldsPassedLimits = false;
+        _dt = dt;
+        _tolerance = tolerance;
+        _failures = 0;
+        _elapsed = 0;
+        _dampedInStep = 0;
+        _hasMoved = false;
+        _hasSettled = false;
+        _hasLookedForHeld = false;
+        _isSingular = isSingular;
+        _firstLoss = 0;
+        _isAudited = LaneEnergy<ScalarLane>.IsKnown(_batch, 0);
+        _batch.ActiveSet?.BeginPace(dt);
+    }
+
+    // Of a pose that the last step did not leave so: closes it, and finds the speeds that it forbids.
+    private void CloseStartPose(bool isMoved)
+    {
+        _isMoved = isMoved || (_batch.ActiveSet != null && _batch.ActiveSet.IsNewlyPassed());
+        HasClosed = _isMoved && _closure.TryClose(_tolerance);
+        _forbidden = _isMoved && !_batch.Shape.IsInconsistent ? InitialVelocityProjection.Find(_batch, out _forbiddenSpeed) : -1;
+    }
+
+    // Takes off the speeds that the joints forbid. Closing what stood open before the step does work on springs.
+    private void ProjectStartSpeeds()
+    {
+        _hasSettled = true;
+        _isAudited &= !(_isMoved && _closure.IsOpen());
+        RattleStep<ScalarLane>.Rebuild(_batch);
+        InitialVelocityProjection.Apply(_batch, _conjugateGradient);
+    }
+
+    // Halvings that the step has up front, by how far bodies turn and how stiff tension makes them; drives that rest on ask for none.
+    private int FirstHalvings(int kept, out double demand)
+    {
+        int halvings = kept;
+        demand = StepLimit.Of(_batch, _dt);
+        if (demand > 1 << halvings && RestOn())
+        {
+            demand = StepLimit.Of(_batch, _dt);
+        }
+
+        while (halvings < MaxHalvings && demand > 1 << halvings)
+        {
+            halvings++;
+        }
+
+        return halvings;
+    }
+
+    private bool RestOn() => _batch.ActiveSet != null && _batch.ActiveSet.RestOn();
+
+    private void SaveStart()
+    {
+        _start.Save(_batch);
+        if (_isAudited)
+        {
+            _energy = new EnergyAudit(_batch, _dt, _tolerance);
+        }
+    }
+
+    // Drives that were held may be so no more, and those that rest may be free.
+    private void FindDrivesThatMove()
+    {
+        if (_batch.ActiveSet != null && _batch.ActiveSet.HasHeld())
+        {
+            FindHeldDrives();
+        }
+
+        if (_batch.ActiveSet != null && _batch.ActiveSet.NextResting(0) >= 0)
+        {
+            HeldDrives.Wake(_batch, _batch.ActiveSet, _conjugateGradient);
+            Return(_start, _dt);
+        }
+    }
+
+    private void FindHeldDrives()
+    {
+        _hasLookedForHeld = true;
+        HeldDrives.Find(_batch, _batch.ActiveSet!, _conjugateGradient);
+        Return(_start, _dt);
+    }
+
+    // The step in even parts, as few as will do; where more are of no use, in whatever parts a method takes. The halvings that it took.
+    private int TakeParts(int halvings, ref SubstepHistory cut)
+    {
+        bool hasHalvedThere = false;
+        while (true)
+        {
+            if (TryEvenParts(halvings))
+            {
+                if (_hasLookedForHeld || _batch.ActiveSet is not { HasRunAway: true })
+                {
+                    break;
+                }
+
+                Return(_start, _dt);
+                _hasMoved = false;
+                FindHeldDrives();
+                continue;
+            }
+
+            bool wasEager = _part.IsEager;
+            ReturnToStart();
+            if (RestOn())
+            {
+                _start.Save(_batch);
+                continue;
+            }
+
+            LookAgainAtStart();
+            if (wasEager && !hasHalvedThere && IsInOnePlace())
+            {
+                hasHalvedThere = true;
+                if (TryHalving(halvings))
+                {
+                    break;
+                }
+
+                Return(_start, _dt);
+            }
+
+            if (halvings >= MostEven)
+            {
+                SubstepUntilSolved(halvings);
+                break;
+            }
+
+            halvings = NextHalvings(halvings, wasEager, ref cut);
+        }
+
+        return halvings;
+    }
+
+    // What failed is tried again with rows that keep to their bounds in each iteration.
+    private void ReturnToStart()
+    {
+        Return(_start, _dt);
+        _hasMoved = false;
+        _part.IsEager = true;
+    }
+
+    // What a step that goes well has no need to ask: which drives the joints hold, and which speeds they forbid.
+    private void LookAgainAtStart()
+    {
+        if (!_hasLookedForHeld && _batch.ActiveSet != null && _batch.ActiveSet.HasEndless())
+        {
+            FindHeldDrives();
+        }
+
+        if (!_hasSettled)
+        {
+            ProjectStartSpeeds();
+            SaveStart();
+        }
+    }
+
+    // Where it has come out that what is lost is none of the step's length, as few as it was first lost at.
+    private int NextHalvings(int halvings, bool wasEager, ref SubstepHistory cut)
+    {
+        if (_isSingular == cut.IsSingular)
+        {
+            return wasEager ? halvings + 1 : halvings;
+        }
+
+        cut.IsSingular = true;
+        return _firstLossHalvings;
+    }
+
+    // What the island's next step takes from this one.
+    private void End(ref SubstepHistory cut, int halvings, double demand)
+    {
+        cut.IsSingular = _isSingular && !new EnergyAudit(_batch, _dt, _tolerance).IsKept(_energy, false, MostEnergyChange);
+        Enter(ref cut.Energy);
+        bool comesToRest = false;
+        cut.IsSlowedDown = _batch.ActiveSet != null && _batch.ActiveSet.EndPace(_dt, _tolerance / _dt, out comesToRest);
+        if (!comesToRest)
+        {
+            cut.Record(halvings, demand);
+        }
+
+        _part.SetLength(_dt);
     }
 
     // The step as it was made before from the same state.
@@ -264,23 +335,7 @@ internal sealed partial class StepController
         Damp(0);
     }
 
-    // Closing what stood open before the step does work on springs.
-    private void CloseInitialState(bool isMoved)
-    {
-        _isAudited &= !(isMoved && _closure.IsOpen());
-        RattleStep<ScalarLane>.Rebuild(_batch);
-        InitialVelocityProjection.Apply(_batch, _exact);
-    }
-
     private int MostEven => _batch.ActiveSet == null ? MaxHalvings : MaxEvenHalvings;
-
-    private void Audit(double dt)
-    {
-        if (_isAudited)
-        {
-            _energy = new EnergyAudit(_batch, dt, _tolerance);
-        }
-    }
 
     private void Enter(ref EnergyLedger ledger)
     {
@@ -310,15 +365,15 @@ internal sealed partial class StepController
         return !_isAudited || new EnergyAudit(_batch, _dt, _tolerance).IsKept(_energy, mayLose, share * (mayLose ? MostEnergyGain : MostEnergyChange));
     }
 
-    private bool TryEvenParts(double dt, int halvings, double tolerance)
+    private bool TryEvenParts(int halvings)
     {
-        _hasArrived = TrySubsteps(dt, halvings, tolerance);
+        _hasArrived = TrySubsteps(halvings);
         if (!_hasArrived)
         {
             return false;
         }
 
-        if (IsEnergyKept(halvings, dt))
+        if (IsEnergyKept(halvings, _dt))
         {
             return true;
         }
@@ -345,13 +400,13 @@ internal sealed partial class StepController
         _isSingular = halvings >= _firstLossHalvings + TellingHalvings && loss > KeptLoss * _firstLoss;
     }
 
-    private bool TrySubsteps(double dt, int halvings, double tolerance)
+    private bool TrySubsteps(int halvings)
     {
-        double h = dt / (1 << halvings);
+        double h = _dt / (1 << halvings);
         _part.SetLength(h);
         for (int i = 1 << halvings; i > 0; i--)
         {
-            if (!_part.TryRattle(h, tolerance))
+            if (!_part.TryRattle(h, _tolerance))
             {
                 return false;
             }
@@ -367,10 +422,10 @@ internal sealed partial class StepController
     private bool IsInOnePlace() => _part.HasFailedAtEvent || (!_hasArrived && _batch.ActiveSet != null && !_batch.ActiveSet.HasSlowedDown());
 
     // The step is halved where it fails and nowhere else; false where that takes more than a few parts.
-    private bool TryHalving(double dt, int halvings, double tolerance)
+    private bool TryHalving(int halvings)
     {
         _isTrial = true;
-        SubstepUntilSolved(dt, halvings, tolerance);
+        SubstepUntilSolved(halvings);
         _isTrial = false;
         if (!_hasGivenUp)
         {
@@ -384,15 +439,15 @@ internal sealed partial class StepController
         return false;
     }
 
-    private void SubstepUntilSolved(double dt, int halvings, double tolerance)
+    private void SubstepUntilSolved(int halvings)
     {
         for (int i = 1 << halvings; i > 0; i--)
         {
-            Halve(dt / (1 << halvings), halvings, tolerance);
+            Halve(_dt / (1 << halvings), halvings);
         }
     }
 
-    private void Halve(double h, int depth, double tolerance)
+    private void Halve(double h, int depth)
     {
         _hasGivenUp = _isTrial && (_hasGivenUp || _failures > MaxTrialFailures);
         if (_hasGivenUp)
@@ -405,7 +460,7 @@ internal sealed partial class StepController
         start.Save(_batch);
         bool isHopeless = _dampedInStep == MaxDampedSteps;
         _part.HoldsPassedLimits = depth >= MaxDepth;
-        if (!isHopeless && _part.TryRattle(h, tolerance) && IsEnergyKept(depth, h))
+        if (!isHopeless && _part.TryRattle(h, _tolerance) && IsEnergyKept(depth, h))
         {
             _hasMoved = true;
             _elapsed += h;
@@ -414,62 +469,66 @@ internal sealed partial class StepController
 
         if (!isHopeless && depth < MaxDepth && _failures++ < MaxFailures)
         {
-            HalveAgain(start, h, depth, tolerance);
+            HalveAgain(start, h, depth);
             return;
         }
 
-        if (isHopeless || !TryFallback(start, h, depth, tolerance))
+        if (!isHopeless && TryFallback(start, h, depth))
         {
-            if (_isTrial)
-            {
-                _hasGivenUp = true;
-                return;
-            }
-
-            if (!isHopeless && depth < LastDepth)
-            {
-                HalveAgain(start, h, depth, tolerance);
-                return;
-            }
-
-            if (_dampedInStep == 0)
-            {
-                MeasureWorstResidual(tolerance);
-                start.Restore(_batch);
-                FindTroubles(tolerance);
-            }
-
-            Return(start, h);
-            _dampedInStep += isHopeless ? 0 : 1;
-            DampedSteps++;
-            Damp(KeptSpeed);
+            _hasMoved = true;
+        }
+        else if (_isTrial)
+        {
+            _hasGivenUp = true;
+            return;
+        }
+        else if (!isHopeless && depth < LastDepth)
+        {
+            HalveAgain(start, h, depth);
+            return;
         }
         else
         {
-            _hasMoved = true;
+            Stop(start, h, isHopeless);
         }
 
         _elapsed += h;
     }
 
-    private void HalveAgain(Snapshot start, double h, int depth, double tolerance)
+    // A part that no method takes stands still, and of the first in the step it is noted why.
+    private void Stop(Snapshot start, double h, bool isHopeless)
+    {
+        if (_dampedInStep == 0)
+        {
+            MeasureWorstResidual();
+            start.Restore(_batch);
+            FindTroubles();
+        }
+
+        Return(start, h);
+        _dampedInStep += isHopeless ? 0 : 1;
+        DampedSteps++;
+        Damp(KeptSpeed);
+    }
+
+    private void HalveAgain(Snapshot start, double h, int depth)
     {
         Return(start, h);
-        Halve(h / 2, depth + 1, tolerance);
-        Halve(h / 2, depth + 1, tolerance);
+        Halve(h / 2, depth + 1);
+        Halve(h / 2, depth + 1);
         _part.SetLength(h);
     }
 
-    private bool TryFallback(Snapshot start, double h, int depth, double tolerance)
+    private bool TryFallback(Snapshot start, double h, int depth)
     {
         Return(start, h);
-        if (_part.TryImplicitEuler(h, tolerance) && IsEnergyKept(depth, h))
+        if (_part.TryImplicitEuler(h, _tolerance) && IsEnergyKept(depth, h))
         {
             return true;
         }
 
         Return(start, h);
-        return _part.TryProjected(h, tolerance, _isAudited ? _energy : null) && IsEnergyKept(depth, h);
+        return _part.TryProjected(h, _tolerance, _isAudited ? _energy : null) && IsEnergyKept(depth, h);
     }
 
     private void Return(Snapshot start, double h)

@@ -36,7 +36,7 @@ internal sealed class Substep
 
     private readonly LaneBatch<ScalarLane> _batch;
     private readonly ImplicitEulerStep _implicit;
-    private readonly ConjugateGradient _exact;
+    private readonly ConjugateGradient _conjugateGradient;
     private readonly ProjectedStep _projected;
     private readonly Snapshot _pieceStart;
     private readonly double[] _guess;
@@ -45,12 +45,12 @@ internal sealed class Substep
     private double _part;
     private double _guessLength;
 
-    public Substep(LaneBatch<ScalarLane> batch, ConjugateGradient exact)
+    public Substep(LaneBatch<ScalarLane> batch, ConjugateGradient conjugateGradient)
     {
         _batch = batch;
         _implicit = new ImplicitEulerStep(batch);
-        _exact = exact;
-        _projected = new ProjectedStep(batch, _exact);
+        _conjugateGradient = conjugateGradient;
+        _projected = new ProjectedStep(batch, _conjugateGradient);
         _pieceStart = new Snapshot(batch);
         _guess = new double[batch.VelocityImpulses.Length];
     }
@@ -157,7 +157,7 @@ internal sealed class Substep
         RattleStep<ScalarLane>.Build(_batch);
         GeometricStiffness<ScalarLane>.Estimate(_batch, _batch.Work.PositionImpulses, h);
         _batch.Work.Active[0] = 1;
-        VelocityProjection<ScalarLane>.Run(_batch, 0, tolerance, _exact);
+        VelocityProjection<ScalarLane>.Run(_batch, 0, tolerance, _conjugateGradient);
         Finish();
 
         // What implicit Euler leaves behind is no guess for RATTLE.
@@ -176,7 +176,7 @@ internal sealed class Substep
 
         _pieceStart.Restore(_batch);
         _batch.ClearHistory();
-        return TryDrift(h, tolerance, IsExact ? _exact : null);
+        return TryDrift(h, tolerance, IsExact ? _conjugateGradient : null);
     }
 
     private bool IsLeftOpen(double tolerance) => IsExact && _batch.Work.MaxError[0] > MostLeftOpen * tolerance;
@@ -184,10 +184,10 @@ internal sealed class Substep
     // A loop that was rounded, held to the letter, is braked or stirred up.
     private bool IsExact => _batch.Shape.Loops == LoopConsistency.Exact;
 
-    private bool TryDrift(double h, double tolerance, ConjugateGradient? exact = null)
+    private bool TryDrift(double h, double tolerance, ConjugateGradient? conjugateGradient = null)
     {
         _batch.Work.Active[0] = 1;
-        RattleStep<ScalarLane>.KickAndDrift(_batch, h, tolerance, _converged, IsEager, exact);
+        RattleStep<ScalarLane>.KickAndDrift(_batch, h, tolerance, _converged, IsEager, conjugateGradient);
         return _converged[0] && !HasGoneTooFar(h, tolerance);
     }
 
@@ -321,7 +321,7 @@ internal sealed class Substep
         CompliantAngles<ScalarLane>.AddDrift(_batch);
         RattleStep<ScalarLane>.Build(_batch);
         _batch.Work.Active[0] = 1;
-        VelocityProjection<ScalarLane>.Run(_batch, h, tolerance, _exact);
+        VelocityProjection<ScalarLane>.Run(_batch, h, tolerance, _conjugateGradient);
         Finish();
         if (_batch.ActiveSet == null)
         {
@@ -336,7 +336,7 @@ internal sealed class Substep
             _guessLength = h;
         }
 
-        if (VelocityProjection<ScalarLane>.Strike(_batch, h, LeastFlight * part, tolerance, _exact))
+        if (VelocityProjection<ScalarLane>.Strike(_batch, h, LeastFlight * part, tolerance, _conjugateGradient))
         {
             Accumulate(_batch.VelocityImpulses);
         }

@@ -10,7 +10,7 @@ namespace Kinefab.Dynamics.Rattle;
 internal static class ChordIteration<V>
     where V : struct, ILane<V>
 {
-    // A mode that contracts by less than one part in four is not sped up further: it is the part of an inexact loop that
+    // A mode that contracts by less than one part in four is not sped up further: it is the part of an inconsistent loop that
     // cannot close, and chasing it would load the loop without end.
     private const double MostMixing = 4;
 
@@ -32,7 +32,7 @@ internal static class ChordIteration<V>
     /// <summary>
     /// Closed, or as closed as an over-constrained loop that was not made exactly can be: nothing moves any more, or the
     /// anchors meet and the angles, near enough, get no better. Going on would load such a loop without end, and stir up
-    /// the turns of slender bodies, on which the chord contracts least. In an island known to be inexact whose angles
+    /// the turns of slender bodies, on which the chord contracts least. In an island known to be inconsistent whose angles
     /// are not springs (implicit Euler) the anchors suffice.
     /// </summary>
     public static bool IsClosed(LaneBatch<V> batch, int lane, double tolerance, bool isRepeated)
@@ -77,8 +77,8 @@ internal static class ChordIteration<V>
     /// <param name="batch">Factored at the start pose, with the errors at the end pose.</param>
     /// <param name="h">Step, s.</param>
     /// <param name="isFirst">Whether no correction of the same matrix went before.</param>
-    /// <param name="exact">Solves without the matrix's compliance; null: by the factor alone.</param>
-    public static void FindMove(LaneBatch<V> batch, double h, bool isFirst, ConjugateGradient? exact = null)
+    /// <param name="conjugateGradient">Solves without the matrix's compliance; null: by the factor alone.</param>
+    public static void FindMove(LaneBatch<V> batch, double h, bool isFirst, ConjugateGradient? conjugateGradient = null)
     {
         int w = Lane<V>.Width;
         double[] d = batch.Work.Solution;
@@ -92,13 +92,13 @@ internal static class ChordIteration<V>
             (rate * Lane<V>.Load(errors, i)).Store(d, i);
         }
 
-        if (exact == null)
+        if (conjugateGradient == null)
         {
             DelassusMatrix<V>.Solve(batch, d);
         }
         else
         {
-            exact.Solve(true);
+            conjugateGradient.Solve(true);
         }
 
         Lane<V> product = Lane<V>.Splat(0);

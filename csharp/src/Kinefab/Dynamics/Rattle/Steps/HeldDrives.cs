@@ -30,8 +30,8 @@ internal static class HeldDrives
     /// <summary>Marks them. Leaves momenta and matrix for the caller to restore.</summary>
     /// <param name="batch">Built at the start pose.</param>
     /// <param name="scalars">Its rows.</param>
-    /// <param name="exact">Solves without the matrix's compliance.</param>
-    public static void Find(LaneBatch<ScalarLane> batch, ActiveSet<ScalarLane> scalars, ConjugateGradient exact)
+    /// <param name="conjugateGradient">Solves without the matrix's compliance.</param>
+    public static void Find(LaneBatch<ScalarLane> batch, ActiveSet<ScalarLane> scalars, ConjugateGradient conjugateGradient)
     {
         batch.Work.Active[0] = 1;
         scalars.Deactivate();
@@ -40,7 +40,7 @@ internal static class HeldDrives
         List<int>[] opposing = Array.ConvertAll(drives, _ => new List<int>());
 
         // What the joints leave of the drives' responses, and what the drives that act take from those that are left.
-        double[][] left = Array.ConvertAll(drives, drive => Left(batch, scalars, exact, drives, drive, 1));
+        double[][] left = Array.ConvertAll(drives, drive => Left(batch, scalars, conjugateGradient, drives, drive, 1));
         double[] own = Array.ConvertAll(drives, drive => Impulses<ScalarLane>.ResponseOf(batch, scalars.Row(drive).Block, scalars.Row(drive).Built));
         var byJoints = new double[drives.Length];
         var waiting = new List<int>();
@@ -87,12 +87,12 @@ internal static class HeldDrives
     /// </summary>
     /// <param name="batch">Built at the start pose.</param>
     /// <param name="scalars">Its rows.</param>
-    /// <param name="exact">Solves without the matrix's compliance.</param>
-    public static void Wake(LaneBatch<ScalarLane> batch, ActiveSet<ScalarLane> scalars, ConjugateGradient exact)
+    /// <param name="conjugateGradient">Solves without the matrix's compliance.</param>
+    public static void Wake(LaneBatch<ScalarLane> batch, ActiveSet<ScalarLane> scalars, ConjugateGradient conjugateGradient)
     {
         for (int i = scalars.NextResting(0); i >= 0; i = scalars.NextResting(i + 1))
         {
-            double freedom = Freedom(batch, scalars, exact, i), atFirst = scalars.Row(i).Pace.RestingFreedom;
+            double freedom = Freedom(batch, scalars, conjugateGradient, i), atFirst = scalars.Row(i).Pace.RestingFreedom;
             if (double.IsNaN(atFirst))
             {
                 scalars.NoteFreedom(i, freedom);
@@ -106,7 +106,7 @@ internal static class HeldDrives
 
     // Of its own bodies' response to an impulse the way that a drive asks for, what joints and reached limits leave when they answer; those that would have
     // to draw let go.
-    private static double Freedom(LaneBatch<ScalarLane> batch, ActiveSet<ScalarLane> scalars, ConjugateGradient exact, int drive)
+    private static double Freedom(LaneBatch<ScalarLane> batch, ActiveSet<ScalarLane> scalars, ConjugateGradient conjugateGradient, int drive)
     {
         batch.Work.Active[0] = 1;
         double impulse = scalars.Row(drive).Built.VelocityTarget < 0 ? -1 : 1;
@@ -116,7 +116,7 @@ internal static class HeldDrives
         do
         {
             RattleStep<ScalarLane>.Factor(batch, false);
-            left = impulse * Left(batch, scalars, exact, new[] { drive }, drive, impulse)[0];
+            left = impulse * Left(batch, scalars, conjugateGradient, new[] { drive }, drive, impulse)[0];
         }
         while (scalars.LetGoOfDrawing(batch.Work.Solution));
 
@@ -148,7 +148,7 @@ internal static class HeldDrives
     }
 
     // Speeds along the drives that an impulse along one of them gives once the rows that hold have answered; their answers stand in Work.Solution.
-    private static double[] Left(LaneBatch<ScalarLane> batch, ActiveSet<ScalarLane> scalars, ConjugateGradient exact, int[] drives, int drive, double impulse)
+    private static double[] Left(LaneBatch<ScalarLane> batch, ActiveSet<ScalarLane> scalars, ConjugateGradient conjugateGradient, int[] drives, int drive, double impulse)
     {
         ref readonly ScalarRow row = ref scalars.Row(drive);
         double[] speeds = batch.Work.Solution;
@@ -163,7 +163,7 @@ internal static class HeldDrives
             speeds[i] -= answer[i];
         }
 
-        exact.Solve(false);
+        conjugateGradient.Solve(false);
         Impulses<ScalarLane>.Apply(batch, speeds);
         double[] after = Array.ConvertAll(drives, SpeedOf);
         for (int i = 0; i < after.Length; i++)

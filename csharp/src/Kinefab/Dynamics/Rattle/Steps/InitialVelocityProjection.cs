@@ -46,8 +46,8 @@ internal static class InitialVelocityProjection
 
     /// <summary>Projects the momenta on what the rigid rows allow.</summary>
     /// <param name="batch">Built at the start pose; factored for the drift again where there are no scalar rows.</param>
-    /// <param name="exact">Solves without the matrix's compliance.</param>
-    public static void Apply(LaneBatch<ScalarLane> batch, ConjugateGradient exact)
+    /// <param name="conjugateGradient">Solves without the matrix's compliance.</param>
+    public static void Apply(LaneBatch<ScalarLane> batch, ConjugateGradient conjugateGradient)
     {
         double[] blow = batch.Work.Solution;
         batch.Work.Active[0] = 1;
@@ -56,7 +56,7 @@ internal static class InitialVelocityProjection
         Impulses<ScalarLane>.NegativeSpeeds(batch);
         if (batch.Shape.Loops == LoopConsistency.Exact)
         {
-            exact.Solve(false);
+            conjugateGradient.Solve(false);
         }
         else
         {

@@ -30,16 +30,16 @@ internal sealed class PositionProjection
     private const double MostTurn = 0.5;
 
     private readonly LaneBatch<ScalarLane> _batch;
-    private readonly ConjugateGradient _exact;
+    private readonly ConjugateGradient _conjugateGradient;
     private readonly double[] _start;
 
     // Velocities and angular momenta, whose place the moves take.
     private readonly double[] _momenta;
     private bool _keepsAllowed;
 
-    public PositionProjection(LaneBatch<ScalarLane> batch, ConjugateGradient exact)
+    public PositionProjection(LaneBatch<ScalarLane> batch, ConjugateGradient conjugateGradient)
     {
-        _exact = exact;
+        _conjugateGradient = conjugateGradient;
         _batch = batch;
         _start = new double[7 * batch.Shape.MovingBodies];
         _momenta = new double[6 * batch.Shape.MovingBodies];
@@ -226,7 +226,7 @@ internal sealed class PositionProjection
         }
     }
 
-    private bool Move(bool isExact)
+    private bool Move(bool byTrueResponse)
     {
         Island shape = _batch.Shape;
         double[] solution = _batch.Work.Solution;
@@ -238,9 +238,9 @@ internal sealed class PositionProjection
             solution[i] = -_batch.Work.Error[i];
         }
 
-        if (isExact && !_batch.Shape.IsInconsistent)
+        if (byTrueResponse && !_batch.Shape.IsInconsistent)
         {
-            _exact.Solve(false);
+            _conjugateGradient.Solve(false);
         }
         else
         {

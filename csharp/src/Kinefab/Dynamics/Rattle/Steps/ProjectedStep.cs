@@ -13,13 +13,13 @@ internal sealed class ProjectedStep
 {
     private readonly LaneBatch<ScalarLane> _batch;
     private readonly PositionProjection _closure;
-    private readonly ConjugateGradient _exact;
+    private readonly ConjugateGradient _conjugateGradient;
 
-    public ProjectedStep(LaneBatch<ScalarLane> batch, ConjugateGradient exact)
+    public ProjectedStep(LaneBatch<ScalarLane> batch, ConjugateGradient conjugateGradient)
     {
         _batch = batch;
-        _closure = new PositionProjection(batch, exact);
-        _exact = exact;
+        _closure = new PositionProjection(batch, conjugateGradient);
+        _conjugateGradient = conjugateGradient;
     }
 
     /// <summary>From the start pose to a closed end pose with momenta that are tangent to it; false when it does not close.</summary>
@@ -52,7 +52,7 @@ internal sealed class ProjectedStep
 
         CompliantAngles<ScalarLane>.AddClosing(batch);
         RattleStep<ScalarLane>.Build(batch);
-        VelocityProjection<ScalarLane>.Rest(batch, tolerance, _exact);
+        VelocityProjection<ScalarLane>.Rest(batch, tolerance, _conjugateGradient);
         return true;
     }
 
@@ -72,7 +72,7 @@ internal sealed class ProjectedStep
             }
             else
             {
-                _exact.Solve(true);
+                _conjugateGradient.Solve(true);
             }
 
             for (int i = 0; i < solution.Length; i++)

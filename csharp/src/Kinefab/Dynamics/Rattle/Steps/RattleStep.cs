@@ -15,7 +15,9 @@ internal static class RattleStep<V>
 {
     /// <summary>Iterations after which a step counts as failed.</summary>
     public const int MaxIterations = 12;
-    private const int MaxExactIterations = 40;
+
+    // And with conjugate gradients.
+    private const int MaxGradientIterations = 40;
 
     /// <summary>Kick, impulses and drift, until the lanes that are active at the call have a closed end pose.</summary>
     /// <param name="batch">Built and factored at the start pose.</param>
@@ -25,8 +27,8 @@ internal static class RattleStep<V>
     /// <param name="isEager">Scalar rows keep to their bounds in every iteration instead of at its end alone: dearer, but
     /// rows that contradict each other give way before the drift is led astray. So they do once a drive runs away, see
     /// <see cref="ActiveSet{V}.RunsAway"/>.</param>
-    /// <param name="exact">Solves for each correction without the matrix's compliance, as long as it takes; null: by the factor alone.</param>
-    public static void KickAndDrift(LaneBatch<V> batch, double h, double tolerance, bool[] converged, bool isEager = false, ConjugateGradient? exact = null)
+    /// <param name="conjugateGradient">Solves for each correction without the matrix's compliance, as long as it takes; null: by the factor alone.</param>
+    public static void KickAndDrift(LaneBatch<V> batch, double h, double tolerance, bool[] converged, bool isEager = false, ConjugateGradient? conjugateGradient = null)
     {
         int w = Lane<V>.Width;
         for (int lane = 0; lane < w; lane++)
@@ -68,7 +70,7 @@ internal static class RattleStep<V>
             bool isDone = true;
             for (int lane = 0; lane < w; lane++)
             {
-                if (batch.Work.Active[lane] != 0 && ChordIteration<V>.IsClosed(batch, lane, tolerance, iteration > restart && exact == null))
+                if (batch.Work.Active[lane] != 0 && ChordIteration<V>.IsClosed(batch, lane, tolerance, iteration > restart && conjugateGradient == null))
                 {
                     batch.Work.Active[lane] = 0;
                     converged[lane] = true;
@@ -92,16 +94,16 @@ internal static class RattleStep<V>
             {
                 return;
             }
-            else if (iteration - restart == (exact == null ? MaxIterations : MaxExactIterations) || ChordIteration<V>.IsHopeless(batch, iteration == restart))
+            else if (iteration - restart == (conjugateGradient == null ? MaxIterations : MaxGradientIterations) || ChordIteration<V>.IsHopeless(batch, iteration == restart))
             {
                 return;
             }
 
-            ChordIteration<V>.FindMove(batch, h, iteration == restart, exact);
+            ChordIteration<V>.FindMove(batch, h, iteration == restart, conjugateGradient);
             isEager |= batch.ActiveSet != null && batch.ActiveSet.RunsAway(batch.Work.Move);
             if (isEager && batch.ActiveSet != null)
             {
-                restart = MoveWithinBounds(batch, h, batch.ActiveSet, exact) ? iteration : restart;
+                restart = MoveWithinBounds(batch, h, batch.ActiveSet, conjugateGradient) ? iteration : restart;
             }
             else
             {
@@ -111,7 +113,7 @@ internal static class RattleStep<V>
     }
 
     // Rows whose impulses the move leads beyond their bounds give way, and the rest moves on without them; whether one did.
-    private static bool MoveWithinBounds(LaneBatch<V> batch, double h, ActiveSet<V> scalars, ConjugateGradient? exact)
+    private static bool MoveWithinBounds(LaneBatch<V> batch, double h, ActiveSet<V> scalars, ConjugateGradient? conjugateGradient)
     {
         bool isAny = false;
         while (true)
@@ -132,7 +134,7 @@ internal static class RattleStep<V>
             isAny = true;
             Factor(batch, true);
             ReleaseAtBound(batch, h, scalars);
-            ChordIteration<V>.FindMove(batch, h, true, exact);
+            ChordIteration<V>.FindMove(batch, h, true, conjugateGradient);
         }
     }
 

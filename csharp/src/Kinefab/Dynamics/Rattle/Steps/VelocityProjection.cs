@@ -20,14 +20,14 @@ internal static class VelocityProjection<V>
     /// <param name="batch">At the end of its drift.</param>
     /// <param name="h">Step, s; 0 without a kick.</param>
     /// <param name="tolerance">Largest C, metres or radians.</param>
-    /// <param name="exact">On the only lane: solves for what the compliance leaves; null: by iteration.</param>
-    public static void Run(LaneBatch<V> batch, double h, double tolerance, ConjugateGradient? exact = null)
+    /// <param name="conjugateGradient">On the only lane: solves for what the compliance leaves; null: by iteration.</param>
+    public static void Run(LaneBatch<V> batch, double h, double tolerance, ConjugateGradient? conjugateGradient = null)
     {
         RattleStep<V>.Kick(batch, h / 2);
         if (batch.ActiveSet != null)
         {
             batch.ActiveSet.BeginVelocities(tolerance * ActiveSet<V>.Reach);
-            RunWithActiveSet(batch, h, tolerance, batch.ActiveSet, exact);
+            RunWithActiveSet(batch, h, tolerance, batch.ActiveSet, conjugateGradient);
             return;
         }
 
@@ -42,7 +42,7 @@ internal static class VelocityProjection<V>
         DelassusMatrix<V>.Solve(batch, batch.Work.Solution);
         Copy(batch, batch.Work.Solution, batch.VelocityImpulses);
         Impulses<V>.Apply(batch, batch.VelocityImpulses);
-        Refine(batch, h, exact);
+        Refine(batch, h, conjugateGradient);
     }
 
     /// <summary>
@@ -53,8 +53,8 @@ internal static class VelocityProjection<V>
     /// <param name="piece">Length of the drift, s.</param>
     /// <param name="leastFlight">See <see cref="ActiveSet{V}.BeginImpact"/>, s.</param>
     /// <param name="tolerance">Largest C, metres or radians.</param>
-    /// <param name="exact">On the only lane: solves for what the compliance leaves; null: by iteration.</param>
-    public static bool Strike(LaneBatch<V> batch, double piece, double leastFlight, double tolerance, ConjugateGradient? exact)
+    /// <param name="conjugateGradient">On the only lane: solves for what the compliance leaves; null: by iteration.</param>
+    public static bool Strike(LaneBatch<V> batch, double piece, double leastFlight, double tolerance, ConjugateGradient? conjugateGradient)
     {
         if (batch.ActiveSet == null || !batch.ActiveSet.BeginImpact(tolerance * ActiveSet<V>.Reach, piece, leastFlight))
         {
@@ -62,30 +62,30 @@ internal static class VelocityProjection<V>
         }
 
         Array.Copy(batch.Bodies, batch.Work.BodiesBefore, batch.Bodies.Length);
-        RunWithActiveSet(batch, 0, tolerance, batch.ActiveSet, exact);
+        RunWithActiveSet(batch, 0, tolerance, batch.ActiveSet, conjugateGradient);
         if (batch.ActiveSet.YieldDrives())
         {
             Array.Copy(batch.Work.BodiesBefore, batch.Bodies, batch.Bodies.Length);
-            RunWithActiveSet(batch, 0, tolerance, batch.ActiveSet, exact);
+            RunWithActiveSet(batch, 0, tolerance, batch.ActiveSet, conjugateGradient);
         }
 
         return true;
     }
 
     /// <summary>Makes the momenta tangent where the rows are built, with nothing thrown back; leaves its impulses.</summary>
-    public static void Rest(LaneBatch<V> batch, double tolerance, ConjugateGradient? exact)
+    public static void Rest(LaneBatch<V> batch, double tolerance, ConjugateGradient? conjugateGradient)
     {
         if (batch.ActiveSet == null)
         {
-            Run(batch, 0, tolerance, exact);
+            Run(batch, 0, tolerance, conjugateGradient);
             return;
         }
 
         batch.ActiveSet.BeginRest(tolerance * ActiveSet<V>.Reach);
-        RunWithActiveSet(batch, 0, tolerance, batch.ActiveSet, exact);
+        RunWithActiveSet(batch, 0, tolerance, batch.ActiveSet, conjugateGradient);
     }
 
-    private static void RunWithActiveSet(LaneBatch<V> batch, double h, double tolerance, ActiveSet<V> scalars, ConjugateGradient? exact)
+    private static void RunWithActiveSet(LaneBatch<V> batch, double h, double tolerance, ActiveSet<V> scalars, ConjugateGradient? conjugateGradient)
     {
         int length = batch.Shape.RowCount;
         for (int n = 0; n < batch.Shape.Blocks.Length; n++)
@@ -107,23 +107,23 @@ internal static class VelocityProjection<V>
             Impulses<V>.Apply(batch, batch.Work.Solution);
             if (!scalars.UpdateVelocities(pass, tolerance * ActiveSet<V>.Reach))
             {
-                Refine(batch, h, exact);
+                Refine(batch, h, conjugateGradient);
                 return;
             }
         }
     }
 
     // A loop that is not exact has no speeds but those that its rows' compliance leaves.
-    private static void Refine(LaneBatch<V> batch, double h, ConjugateGradient? exact)
+    private static void Refine(LaneBatch<V> batch, double h, ConjugateGradient? conjugateGradient)
     {
         if (!batch.Shape.IsRedundant || batch.Shape.Loops != LoopConsistency.Exact || !IsAnyLeft(batch, h * MostLeft))
         {
             return;
         }
 
-        if (exact != null)
+        if (conjugateGradient != null)
         {
-            RefineAlone(batch, exact);
+            RefineAlone(batch, conjugateGradient);
             return;
         }
 
@@ -152,14 +152,14 @@ internal static class VelocityProjection<V>
         active.Store(batch.Work.Active, 0);
     }
 
-    private static void RefineAlone(LaneBatch<V> batch, ConjugateGradient exact)
+    private static void RefineAlone(LaneBatch<V> batch, ConjugateGradient conjugateGradient)
     {
         double[] solution = batch.Work.Solution;
         for (int pass = 0; pass < 2; pass++)
         {
             Impulses<V>.NegativeSpeeds(batch);
             batch.ActiveSet?.AddTargets();
-            exact.Solve(false);
+            conjugateGradient.Solve(false);
             for (int i = 0; i < solution.Length; i++)
             {
                 batch.VelocityImpulses[i] += solution[i];

@@ -32,9 +32,9 @@ internal sealed class StateTape
     }
 
     /// <summary>The numbers of one lane of an array that keeps its length: number i of it stands at i * width + lane.</summary>
-    public void Lane(double[] part, int lane, int width)
+    public void Lane<T>(T[] part, int lane, int width)
     {
-        double[] taken = IsPlaying ? (double[])_parts[_next++]! : new double[part.Length / width];
+        T[] taken = IsPlaying ? (T[])_parts[_next++]! : new T[part.Length / width];
         for (int i = 0; i < taken.Length; i++)
         {
             if (IsPlaying)

@@ -5,6 +5,22 @@ using Kinefab.Numerics;
 
 namespace Kinefab.Dynamics.Rattle;
 
+/// <summary>What a lane has as its row about a hinge's axis.</summary>
+internal enum AxisRowKind : byte
+{
+    /// <summary>Nothing.</summary>
+    None,
+
+    /// <summary>A speed held within bounds of torque.</summary>
+    Motor,
+
+    /// <summary>The end of its range that the hinge rests on.</summary>
+    Limit,
+
+    /// <summary>A spring that the step can follow.</summary>
+    Spring,
+}
+
 /// <summary>
 /// One row about the axis of each hinge that has a drive or limits, in lanes, J = (0, x; 0, -x), whose speed is that of the turn reversed: a spring, a
 /// motor, or the end of a limit that the hinge rests on. The same steps as the active set's, of a row that stays free; a lane of which one
@@ -19,36 +35,33 @@ internal sealed class AxisRows<V>
     // Compliance of a spring in the projection, in which it does not answer: what is left of an impulse is below rounding.
     private const double Endless = 1e40;
 
-    // Numbers of a row, each Width lanes wide.
-    private const int Kind = 0;
-    private const int Target = 1;
-    private const int Compliance = 2;
-    private const int Low = 3;
-    private const int High = 4;
-    private const int Response = 5;
-    private const int Speed = 6;
-    private const int StartCosine = 7;
-    private const int StartSine = 8;
-    private const int Cosine = 9;
-    private const int Sine = 10;
-    private const int End = 11;
-    private const int EndCosine = 12;
-    private const int EndSine = 13;
-    private const int Turn = 14;
-    private const int Count = 15;
-
-    // What a lane has as the row.
-    private const double None = 0;
-    private const double Motor = 1;
-    private const double Limit = 2;
-    private const double Spring = 3;
+    // Numbers of a row, each Width lanes wide. The first three are masks: where a lane has a row, where that is a spring, and where it is a motor.
+    private const int IsRow = 0;
+    private const int IsSpring = 1;
+    private const int IsMotor = 2;
+    private const int Target = 3;
+    private const int Compliance = 4;
+    private const int Low = 5;
+    private const int High = 6;
+    private const int Response = 7;
+    private const int Speed = 8;
+    private const int StartCosine = 9;
+    private const int StartSine = 10;
+    private const int Cosine = 11;
+    private const int Sine = 12;
+    private const int End = 13;
+    private const int EndCosine = 14;
+    private const int EndSine = 15;
+    private const int Turn = 16;
+    private const int Count = 17;
 
     private readonly LaneRecords<V> _batch;
     private readonly int[] _blocks;
     private readonly double[] _numbers;
 
-    // The kinds that are in the factored matrix, and impulses before the last drift.
-    private readonly double[] _factored;
+    // What each lane has as the row, number k of it at k * Width + lane; that of the factored matrix, and impulses before the last drift.
+    private readonly AxisRowKind[] _kinds;
+    private readonly AxisRowKind[] _factored;
     private readonly double[] _first;
 
     private AxisRows(LaneRecords<V> batch, int[] blocks)
@@ -56,7 +69,8 @@ internal sealed class AxisRows<V>
         _batch = batch;
         _blocks = blocks;
         _numbers = new double[Count * blocks.Length * Lane<V>.Width];
-        _factored = new double[blocks.Length * Lane<V>.Width];
+        _kinds = new AxisRowKind[blocks.Length * Lane<V>.Width];
+        _factored = new AxisRowKind[_kinds.Length];
         _first = new double[blocks.Length * Lane<V>.Width];
     }
 
@@ -72,10 +86,11 @@ internal sealed class AxisRows<V>
     public void Clear()
     {
         int w = Lane<V>.Width;
+        Array.Clear(_kinds, 0, _kinds.Length);
         for (int k = 0; k < _blocks.Length; k++)
         {
             int o = Count * k * w;
-            Array.Clear(_numbers, o, 5 * w);
+            Array.Clear(_numbers, o, Response * w);
             MeasureResponse(k, o);
             HingeTurn<V>.Measure(_batch, _blocks[k], _numbers, o + StartCosine * w);
         }
@@ -91,16 +106,15 @@ internal sealed class AxisRows<V>
         for (int k = 0; k < _blocks.Length; k++)
         {
             JointModel joint = _batch.Models[_blocks[k] * w + lane]!;
-            int o = Count * k * w + lane;
             RowBlock block = _batch.Shape.Blocks[_blocks[k]];
             bool isReached = block.Watch == WatchForm.Twist && !(HingeRange.LeftOf(joint, joint.LastTwist) > reach);
-            bool canGo = block.IsAxisDriven ? !isReached && TryDrive(joint, o, k * w + lane, h) : !isReached || TryHold(joint, o, RowOf(k) + lane);
+            bool canGo = block.IsAxisDriven ? !isReached && TryDrive(joint, k, lane, h) : !isReached || TryHold(joint, k, lane);
             if (!canGo)
             {
                 return false;
             }
 
-            if (_numbers[o + Kind * w] == None)
+            if (_kinds[k * w + lane] == AxisRowKind.None)
             {
                 _batch.VelocityImpulses[RowOf(k) + lane] = 0;
             }
@@ -114,23 +128,18 @@ internal sealed class AxisRows<V>
     {
         for (int k = 0; k < _blocks.Length; k++)
         {
-            _numbers[Count * k * Lane<V>.Width + lane] = None;
+            Set(k, lane, AxisRowKind.None);
         }
     }
 
     /// <summary>Whether the matrix is that of the drift: of the same rows, and no spring is to act.</summary>
     public bool IsFactoredForDrift()
     {
-        int w = Lane<V>.Width;
-        for (int k = 0; k < _blocks.Length; k++)
+        for (int i = 0; i < _kinds.Length; i++)
         {
-            for (int lane = 0; lane < w; lane++)
+            if (_kinds[i] == AxisRowKind.Spring || _kinds[i] != _factored[i])
             {
-                double kind = _numbers[(Count * k + Kind) * w + lane];
-                if (kind == Spring || kind != _factored[k * w + lane])
-                {
-                    return false;
-                }
+                return false;
             }
         }
 
@@ -138,36 +147,18 @@ internal sealed class AxisRows<V>
     }
 
     /// <summary>Whether a lane has a spring, for which the matrix is wanted again in the drift.</summary>
-    public bool HasSprings()
-    {
-        int w = Lane<V>.Width;
-        bool isAny = false;
-        for (int k = 0; k < _blocks.Length; k++)
-        {
-            for (int lane = 0; lane < w; lane++)
-            {
-                isAny |= _numbers[Count * k * w + lane] == Spring;
-            }
-        }
-
-        return isAny;
-    }
+    public bool HasSprings() => Array.IndexOf(_kinds, AxisRowKind.Spring) >= 0;
 
     /// <summary>Whether the kept matrix has the same rows as the drift: but for what springs have on the diagonal it is the drift's.</summary>
     public bool IsKeptForDrift()
     {
-        int w = Lane<V>.Width;
         bool isKept = false;
-        for (int k = 0; k < _blocks.Length; k++)
+        for (int i = 0; i < _kinds.Length; i++)
         {
-            for (int lane = 0; lane < w; lane++)
+            isKept |= _factored[i] == AxisRowKind.Spring;
+            if (_kinds[i] != _factored[i])
             {
-                double kind = _factored[k * w + lane];
-                isKept |= kind == Spring;
-                if (_numbers[Count * k * w + lane] != kind)
-                {
-                    return false;
-                }
+                return false;
             }
         }
 
@@ -193,14 +184,13 @@ internal sealed class AxisRows<V>
         {
             int n = _blocks[k];
             int cell = (_batch.Shape.Pattern.Diagonal(n) + _batch.Shape.Blocks[n].BilateralCount * (_batch.Shape.Blocks[n].Rows + 1)) * w;
-            Lane<V> kind = Load(k, Kind);
-            Lane<V> isSpring = IsSpring(kind);
             Lane<V> compliance = isDrift ? Load(k, Compliance) : Lane<V>.Splat(Endless);
             Lane<V> diagonal = Lane<V>.Load(_batch.Matrix, cell);
-            Lane<V> held = Lane<V>.Select(isSpring, diagonal + compliance, diagonal * Lane<V>.Splat(1 + ScalarRow.RigidShare));
-            Lane<V>.Select(kind, held, one).Store(_batch.Matrix, cell);
-            kind.Store(_factored, k * w);
+            Lane<V> held = Lane<V>.Select(Load(k, IsSpring), diagonal + compliance, diagonal * Lane<V>.Splat(1 + ScalarRow.RigidShare));
+            Lane<V>.Select(Load(k, IsRow), held, one).Store(_batch.Matrix, cell);
         }
+
+        Array.Copy(_kinds, _factored, _kinds.Length);
     }
 
     /// <summary>Residuals of the rows at the end of the drift as errors, radians.</summary>
@@ -228,7 +218,7 @@ internal sealed class AxisRows<V>
         {
             int o = Count * k * w + lane;
             double impulse = _batch.Work.PositionImpulses[RowOf(k) + lane];
-            isFree &= _numbers[o + Kind * w] == None || (impulse >= Share * _numbers[o + Low * w] && impulse <= Share * _numbers[o + High * w]);
+            isFree &= _kinds[k * w + lane] == AxisRowKind.None || (impulse >= Share * _numbers[o + Low * w] && impulse <= Share * _numbers[o + High * w]);
         }
 
         return isFree;
@@ -250,10 +240,9 @@ internal sealed class AxisRows<V>
         for (int k = 0; k < _blocks.Length; k++)
         {
             int row = RowOf(k);
-            Lane<V> kind = Load(k, Kind);
-            Lane<V> target = Lane<V>.Select(IsMotor(kind), Load(k, Target), zero);
+            Lane<V> target = Lane<V>.Select(Load(k, IsMotor), Load(k, Target), zero);
             Lane<V> speed = Lane<V>.Load(_batch.Work.Solution, row) + target;
-            Lane<V>.Select(IsSpring(kind), zero, Lane<V>.Select(kind, speed, zero)).Store(_batch.Work.Solution, row);
+            Lane<V>.Select(Load(k, IsSpring), zero, Lane<V>.Select(Load(k, IsRow), speed, zero)).Store(_batch.Work.Solution, row);
         }
     }
 
@@ -266,22 +255,40 @@ internal sealed class AxisRows<V>
         {
             int o = Count * k * w + lane;
             double impulse = _batch.VelocityImpulses[RowOf(k) + lane];
-            double kind = _numbers[o + Kind * w];
-            isFree &= kind != Motor || (impulse >= (1 - Share) * _numbers[o + Low * w] && impulse <= (1 - Share) * _numbers[o + High * w]);
+            AxisRowKind kind = _kinds[k * w + lane];
+            isFree &= kind != AxisRowKind.Motor || (impulse >= (1 - Share) * _numbers[o + Low * w] && impulse <= (1 - Share) * _numbers[o + High * w]);
 
             // What pushed the joint back out of its stop on the way is no speed to leave it with.
             double sum = impulse + _batch.Work.PositionImpulses[RowOf(k) + lane];
-            isFree &= kind != Limit || (sum >= _numbers[o + Low * w] && sum <= _numbers[o + High * w]);
+            isFree &= kind != AxisRowKind.Limit || (sum >= _numbers[o + Low * w] && sum <= _numbers[o + High * w]);
         }
 
         return isFree;
     }
 
     /// <summary>Whether a lane has a row in this step.</summary>
-    public bool HasRow(int lane) => HasKind(lane, Motor, Spring);
+    public bool HasRow(int lane)
+    {
+        bool isAny = false;
+        for (int i = lane; i < _kinds.Length; i += Lane<V>.Width)
+        {
+            isAny |= _kinds[i] != AxisRowKind.None;
+        }
+
+        return isAny;
+    }
 
     /// <summary>Whether a motor turns a lane's hinge in this step.</summary>
-    public bool HasMotor(int lane) => HasKind(lane, Motor, Motor);
+    public bool HasMotor(int lane)
+    {
+        bool isAny = false;
+        for (int i = lane; i < _kinds.Length; i += Lane<V>.Width)
+        {
+            isAny |= _kinds[i] == AxisRowKind.Motor;
+        }
+
+        return isAny;
+    }
 
     /// <summary>What the drives gave in the step: a spring its impulse along the drift, a motor its own at its speed, J.</summary>
     public Lane<V> Work(double h)
@@ -290,10 +297,9 @@ internal sealed class AxisRows<V>
         Lane<V> sum = zero;
         for (int k = 0; k < _blocks.Length; k++)
         {
-            Lane<V> kind = Load(k, Kind);
             Lane<V> spring = Lane<V>.Splat(-1 / (Share * h)) * Lane<V>.Load(_batch.Work.PositionImpulses, RowOf(k)) * Load(k, Turn);
             Lane<V> motor = Lane<V>.Load(_batch.Work.TotalImpulses, RowOf(k)) * Load(k, Target);
-            sum += Lane<V>.Select(IsSpring(kind), spring, Lane<V>.Select(IsMotor(kind), motor, zero));
+            sum += Lane<V>.Select(Load(k, IsSpring), spring, Lane<V>.Select(Load(k, IsMotor), motor, zero));
         }
 
         return sum;
@@ -322,7 +328,7 @@ internal sealed class AxisRows<V>
     public double LimitImpulse(int block, int lane, double[] impulses)
     {
         int k = Array.IndexOf(_blocks, block);
-        return k >= 0 && _numbers[Count * k * Lane<V>.Width + lane] == Limit ? impulses[RowOf(k) + lane] : 0;
+        return k >= 0 && _kinds[k * Lane<V>.Width + lane] == AxisRowKind.Limit ? impulses[RowOf(k) + lane] : 0;
     }
 
     /// <summary>Gives a lane's impulses to the rows of the same hinges of an island that is to step alone.</summary>
@@ -389,10 +395,11 @@ internal sealed class AxisRows<V>
 
     private int RowOf(int k) => (_batch.Shape.Pattern.Rows[_blocks[k]] + _batch.Shape.Blocks[_blocks[k]].BilateralCount) * Lane<V>.Width;
 
-    private bool TryDrive(JointModel joint, int o, int first, double h)
+    private bool TryDrive(JointModel joint, int k, int lane, double h)
     {
         HingeDrive drive = HingeDrive.Of(joint);
         int w = Lane<V>.Width;
+        int o = Count * k * w + lane;
         double response = _numbers[o + Response * w];
         if (!drive.IsLinear || !(response > ScalarRow.LeastResponse))
         {
@@ -401,9 +408,9 @@ internal sealed class AxisRows<V>
 
         double scale = joint.DriveLimitsAreForces ? h : 1;
         double low = scale * drive.Minimum, high = scale * drive.Maximum;
-        int row = RowOf(first / w) + o % w;
+        int row = RowOf(k) + lane;
         double guess = _batch.VelocityImpulses[row];
-        _numbers[o + Kind * w] = Motor;
+        Set(k, lane, drive.IsSpring ? AxisRowKind.Spring : AxisRowKind.Motor);
         _numbers[o + Target * w] = drive.VelocityTarget;
         if (drive.IsSpring)
         {
@@ -413,8 +420,7 @@ internal sealed class AxisRows<V>
                 return false;
             }
 
-            guess = _first[first];
-            _numbers[o + Kind * w] = Spring;
+            guess = _first[k * w + lane];
             _numbers[o + Target * w] = law.RestImpulse / law.ImplicitDamping;
             _numbers[o + Compliance * w] = 1 / (law.Theta * law.ImplicitDamping);
         }
@@ -426,11 +432,12 @@ internal sealed class AxisRows<V>
     }
 
     // A hinge that was held in the last step rests on the same end in this one; the first step on it, and a blow, are made alone.
-    private bool TryHold(JointModel joint, int o, int row)
+    private bool TryHold(JointModel joint, int k, int lane)
     {
         int w = Lane<V>.Width;
+        int o = Count * k * w + lane;
         ref readonly AngularLimit limit = ref HingeRange.Of(joint);
-        double impulse = _batch.VelocityImpulses[row];
+        double impulse = _batch.VelocityImpulses[RowOf(k) + lane];
         bool isUpper = limit.Upper - joint.LastTwist < joint.LastTwist - limit.Lower;
         double end = isUpper ? limit.Upper : limit.Lower;
 
@@ -442,7 +449,7 @@ internal sealed class AxisRows<V>
             return false;
         }
 
-        _numbers[o + Kind * w] = Limit;
+        Set(k, lane, AxisRowKind.Limit);
         if (_numbers[o + End * w] != end || _numbers[o + EndCosine * w] == 0)
         {
             _numbers[o + End * w] = end;
@@ -455,23 +462,17 @@ internal sealed class AxisRows<V>
         return true;
     }
 
-    private bool HasKind(int lane, double first, double last)
+    private void Set(int k, int lane, AxisRowKind kind)
     {
-        bool isAny = false;
-        for (int k = 0; k < _blocks.Length; k++)
-        {
-            double kind = _numbers[Count * k * Lane<V>.Width + lane];
-            isAny |= kind >= first && kind <= last;
-        }
-
-        return isAny;
+        int w = Lane<V>.Width;
+        int o = Count * k * w + lane;
+        _kinds[k * w + lane] = kind;
+        _numbers[o + IsRow * w] = kind == AxisRowKind.None ? 0 : 1;
+        _numbers[o + IsSpring * w] = kind == AxisRowKind.Spring ? 1 : 0;
+        _numbers[o + IsMotor * w] = kind == AxisRowKind.Motor ? 1 : 0;
     }
 
     private Lane<V> Load(int k, int slot) => Lane<V>.Load(_numbers, (Count * k + slot) * Lane<V>.Width);
-
-    private static Lane<V> IsSpring(Lane<V> kind) => Lane<V>.Max(kind - Lane<V>.Splat(Limit), Lane<V>.Splat(0));
-
-    private static Lane<V> IsMotor(Lane<V> kind) => Lane<V>.Select(kind, Lane<V>.Max(Lane<V>.Splat(Limit) - kind, Lane<V>.Splat(0)), Lane<V>.Splat(0));
 
     // J M^-1 J^T and J v at the start pose.
     [MethodImpl(MethodImplOptions.NoInlining)]
@@ -509,7 +510,7 @@ internal sealed class AxisRows<V>
     {
         int n = _blocks[k];
         Lane<V> zero = Lane<V>.Splat(0);
-        LaneVector<V> axis = LaneVector<V>.Select(Load(k, Kind), HingeTurn<V>.Axis(_batch, n), new LaneVector<V>(zero, zero, zero));
+        LaneVector<V> axis = LaneVector<V>.Select(Load(k, IsRow), HingeTurn<V>.Axis(_batch, n), new LaneVector<V>(zero, zero, zero));
         int o = _batch.Row(n, _batch.Shape.Blocks[n].BilateralCount, 0);
         axis.Store(_batch.Angular, o);
         (-axis).Store(_batch.Angular, o, 3);
@@ -526,7 +527,7 @@ internal sealed class AxisRows<V>
         Lane<V> turn = two * LaneTrigonometry<V>.Atan((s1 * c0 - c1 * s0) / (Lane<V>.Splat(1) + (c1 * c0 + s1 * s0)));
         turn.Store(_numbers, (Count * k + Turn) * Lane<V>.Width);
         Lane<V> rest = Load(k, Compliance) * Lane<V>.Load(_batch.Work.PositionImpulses, row) - Load(k, Target);
-        Lane<V>.Select(Load(k, Kind), Lane<V>.Splat(h) * rest - turn, Lane<V>.Splat(0)).Store(_batch.Work.Error, row);
+        Lane<V>.Select(Load(k, IsRow), Lane<V>.Splat(h) * rest - turn, Lane<V>.Splat(0)).Store(_batch.Work.Error, row);
     }
 
     // Of a limit the sine of what the turn is short of its end.
@@ -535,7 +536,7 @@ internal sealed class AxisRows<V>
     {
         HingeTurn<V>.Measure(_batch, _blocks[k], _numbers, (Count * k + Cosine) * Lane<V>.Width);
         Lane<V> left = Load(k, EndSine) * Load(k, Cosine) - Load(k, EndCosine) * Load(k, Sine);
-        Lane<V>.Select(Load(k, Kind), left, Lane<V>.Splat(0)).Store(_batch.Work.Error, RowOf(k));
+        Lane<V>.Select(Load(k, IsRow), left, Lane<V>.Splat(0)).Store(_batch.Work.Error, RowOf(k));
     }
 
     [MethodImpl(MethodImplOptions.NoInlining)]
@@ -543,7 +544,7 @@ internal sealed class AxisRows<V>
     {
         int n = _blocks[k];
         Lane<V> zero = Lane<V>.Splat(0);
-        Lane<V> gives = Lane<V>.Select(IsSpring(Load(k, Kind)), Lane<V>.Load(_batch.Work.Active, 0), zero);
+        Lane<V> gives = Lane<V>.Select(Load(k, IsSpring), Lane<V>.Load(_batch.Work.Active, 0), zero);
         Lane<V> impulse = Lane<V>.Select(gives, Lane<V>.Splat((1 - Share) / Share) * Lane<V>.Load(_batch.Work.PositionImpulses, RowOf(k)), zero);
         LaneVector<V> turn = impulse * HingeTurn<V>.Axis(_batch, n);
         for (int side = 0; side < 2; side++)

@@ -189,7 +189,7 @@ internal sealed class LimitedSceneTests
 
     /// <summary>A motor of finite force on a loop that cannot move, with speeds at the start that its joints forbid: 64 stops.</summary>
     [Test]
-    public void Step_MotorOnALoopThatCannotMove_StandsStill()
+    public void Step_MotorOnALoopThatCannotMove_DoesNotStop()
     {
         var scene = new LimitedScene(4);
         var solver = new RattleSolver(scene.System, new List<InconsistentLoop>());
@@ -232,8 +232,7 @@ internal sealed class LimitedSceneTests
             int count = joint.IsBroken ? 0 : joint.PrepareForces(m.Bodies.PoseOf(joint.Body0), m.Bodies.PoseOf(joint.Body1), rows);
             for (int i = 0; i < count; i++)
             {
-                bool isHard = rows[i].Has(RowFlags.Limit) && !rows[i].Has(RowFlags.Spring);
-                most = isHard ? Math.Max(most, -rows[i].GeometricError) : most;
+                most = rows[i].IsHardLimit ? Math.Max(most, -rows[i].GeometricError) : most;
             }
         }
 

@@ -153,13 +153,13 @@ internal sealed class MachineSceneTests
     /// 20 J a step, and showed 10 J more before.
     /// </summary>
     [Test]
-    public void Step_EnergyThatAStepDoesNotKeep_IsKeptByEvenParts() => Assert.That(Run(9008673, Steps, 1).Gain, Is.LessThanOrEqualTo(MostGain));
+    public void Step_EnergyThatAStepDoesNotKeep_DoesNotGrow() => Assert.That(Run(9008673, Steps, 1).Gain, Is.LessThanOrEqualTo(MostGain));
 
     /// <summary>
     /// A limit that its joint left by less than other rows were open was passed by any drift, however short: it is held then, and no part stands still.
     /// </summary>
     [Test]
-    public void Step_LimitThatIsHardlyLeft_IsHeld() => Assert.That(Run(8002115, Steps, 1).Stops, Is.Zero);
+    public void Step_LimitThatIsHardlyLeft_DoesNotStop() => Assert.That(Run(8002115, Steps, 1).Stops, Is.Zero);
 
     /// <summary>Ever smaller bounces against a drive without limit of force end at once: the joint rests at its stop, whatever that would throw back.</summary>
     [Test]
@@ -244,9 +244,9 @@ internal sealed class MachineSceneTests
         }
 
         costs.Sort();
-        bool isInexact = world.Findings.Diagnostics.Any(found => found.Code == DiagnosticCodes.LoopInconsistent);
+        bool isInconsistent = world.Findings.Diagnostics.Any(found => found.Code == DiagnosticCodes.LoopInconsistent);
         bool isStalled = world.Findings.Diagnostics.Any(found => found.Code == DiagnosticCodes.DriveStalled);
-        return new Course(poses, scene.Size, isInexact ? 0 : open, gain, world.Stops, costs[costs.Count / 2], costs[^1], isStalled);
+        return new Course(poses, scene.Size, isInconsistent ? 0 : open, gain, world.Stops, costs[costs.Count / 2], costs[^1], isStalled);
     }
 
     private static double Energy(World world) => world.KineticEnergy + world.PotentialEnergy + MachineScene.SpringEnergy(world);

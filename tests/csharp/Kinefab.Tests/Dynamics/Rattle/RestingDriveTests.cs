@@ -136,7 +136,7 @@ internal sealed class RestingDriveTests
     /// to 2e15 J and 472 stops.
     /// </summary>
     [Test]
-    public void Step_MotorThatThrowsItsLoopAbout_GivesNoMoreEachTime()
+    public void Step_MotorThatThrowsItsLoopAbout_GivesNoMoreThanABound()
     {
         var scene = new MachineScene(3000232);
         World world = scene.Build();

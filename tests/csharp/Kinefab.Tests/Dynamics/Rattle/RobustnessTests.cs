@@ -73,7 +73,7 @@ internal sealed class RobustnessTests
         double start = MechanismMeasures.Kinetic(m) + scene.Stored();
         double height = MechanismMeasures.Potential(m);
 
-        // Looking for inexact loops takes most of a small scene's time.
+        // Looking for inconsistent loops takes most of a small scene's time.
         RattleSolver solver = seed % 10 == 0 ? new RattleSolver(m) : new RattleSolver(m, new List<InconsistentLoop>());
         for (int i = 1; i <= steps * finer && m.Stops == 0; i++)
         {

@@ -5,7 +5,7 @@ using Kinefab.Numerics;
 
 namespace Kinefab.Tests.Dynamics.Rattle;
 
-/// <summary>The scenes by which solvers are compared: closed loops, chains, a motor, mass ratios, singular and inexact loops.</summary>
+/// <summary>The scenes by which solvers are compared: closed loops, chains, a motor, mass ratios, singular and inconsistent loops.</summary>
 internal static class SolverScenes
 {
     private static readonly Vector3d Z = Vector3d.UnitZ;

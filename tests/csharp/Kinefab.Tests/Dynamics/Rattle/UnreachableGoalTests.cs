@@ -49,6 +49,7 @@ internal sealed class UnreachableGoalTests
         Assert.That(world.Stops, Is.Zero);
         Assert.That(most, Is.LessThanOrEqualTo(300));
         Assert.That(world.KineticEnergy, Is.LessThanOrEqualTo(5));
+        Assert.That(fastest, Is.LessThanOrEqualTo(500), "rad/s");
     }
 
     [Test]

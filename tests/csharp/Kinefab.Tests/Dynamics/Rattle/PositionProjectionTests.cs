@@ -8,7 +8,7 @@ using NUnit.Framework;
 namespace Kinefab.Tests.Dynamics.Rattle;
 
 /// <summary>A pose that stands open is closed before the first step, and no speed comes of it.</summary>
-internal sealed class PoseClosureTests
+internal sealed class PositionProjectionTests
 {
     private const double Dt = 1.0 / 60;
 

@@ -7,7 +7,7 @@ using NUnit.Framework;
 namespace Kinefab.Tests.Dynamics.Rattle;
 
 /// <summary>A wheel on a spring far too stiff for the step: without its answer to a torque's second half it shows h T / (2 I) for ever.</summary>
-internal sealed class SpringAnswerTests
+internal sealed class StiffSpringCorrectionTests
 {
     private const double Dt = 1.0 / 60;
     private const double Torque = 5;

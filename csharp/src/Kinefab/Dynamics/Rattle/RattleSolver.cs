@@ -23,7 +23,7 @@ internal sealed class RattleSolver : ISolver, IStepParts
 
     private readonly MultibodySystem _mechanism;
     private readonly int _maxWidth;
-    private readonly Dictionary<int, LoopConsistency> _fits = new();
+    private readonly Dictionary<int, LoopConsistency> _consistencies = new();
     private readonly Action<JointReaction[]> _writeReactions;
     private List<IslandGroup> _groups = new();
 
@@ -63,7 +63,7 @@ internal sealed class RattleSolver : ISolver, IStepParts
         {
             foreach (int joint in loop.Joints)
             {
-                _fits[joint] = loop.Consistency;
+                _consistencies[joint] = loop.Consistency;
             }
         }
 
@@ -152,8 +152,8 @@ internal sealed class RattleSolver : ISolver, IStepParts
         LoopConsistency worst = LoopConsistency.Exact;
         foreach (RowBlock block in island.Blocks)
         {
-            bool isProbed = _fits.TryGetValue(block.Index, out LoopConsistency fit) && block.Joint != null && island.HasJointLoops;
-            worst = isProbed && fit > worst ? fit : worst;
+            bool isProbed = _consistencies.TryGetValue(block.Index, out LoopConsistency consistency) && block.Joint != null && island.HasJointLoops;
+            worst = isProbed && consistency > worst ? consistency : worst;
         }
 
         return worst;

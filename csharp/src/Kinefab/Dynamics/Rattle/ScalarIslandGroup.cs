@@ -4,7 +4,7 @@ using Kinefab.Numerics;
 
 namespace Kinefab.Dynamics.Rattle;
 
-/// <summary>Islands with scalar rows or other prepared rows, one at a time.</summary>
+/// <summary>Islands that always have assembled rows, one at a time.</summary>
 internal sealed class ScalarIslandGroup : IslandGroup
 {
     private readonly MultibodySystem _mechanism;

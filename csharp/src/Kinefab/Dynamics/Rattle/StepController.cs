@@ -5,7 +5,7 @@ namespace Kinefab.Dynamics.Rattle;
 
 /// <summary>
 /// One island's step by whatever it takes: RATTLE; where that does not converge, or energy shows that it is too coarse, the
-/// step again in even parts, from its start; below the finest of these, halves of a part; at last implicit Euler. Steps are
+/// step again in even parts, from its start; below the finest of these, halves of a part; implicit Euler, and at last a projected step. Steps are
 /// also cut up front where bodies turn far or where tension makes them stiff. Even parts from the start, and kept for a
 /// while, since RATTLE keeps energy over long times at a constant step and pays for a change amid a violent motion.
 /// </summary>
@@ -21,7 +21,7 @@ internal sealed partial class StepController
     // Halvings into even parts where limits and drives act: blows end the long account of energy for which the parts are even.
     private const int MaxEvenHalvings = 6;
 
-    // Failures in a step after which parts that fail are left to implicit Euler.
+    // Failures in a step after which parts that fail are left to the methods that need no chord.
     private const int MaxFailures = 48;
 
     // And after which a step that was halved where it failed is cut into even parts all the same.
@@ -84,7 +84,7 @@ internal sealed partial class StepController
         _start = new Snapshot(batch);
     }
 
-    /// <summary>Substeps in which the island stood still: not even implicit Euler could take them, or too many before them.</summary>
+    /// <summary>Parts in which the island stood still: no method could take them, or too many before them.</summary>
     public int DampedSteps { get; private set; }
 
     /// <summary>Parts of the last step that were tried: 1 of a plain one.</summary>

@@ -6,7 +6,7 @@ namespace Kinefab.Dynamics.Rattle;
 
 /// <summary>
 /// The limits of islands that are stepped without their rows: while none is reached, those do nothing. A lane whose pose at the start of a step is at
-/// a limit, or whose drift would end beyond one, leaves the lanes for that step.
+/// a limit, or whose drift would end beyond one, leaves the batch for that step: for the one in which hinges rest on limits, or to be stepped alone.
 /// </summary>
 internal sealed class WatchedLimits<V>
     where V : struct, ILane<V>

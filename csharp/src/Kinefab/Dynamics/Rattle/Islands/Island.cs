@@ -313,17 +313,17 @@ internal sealed class Island
 
     private static int[] FindLockedInertia(Vector3d[] inverseInertias)
     {
-        var frozen = new List<int>();
+        var locked = new List<int>();
         for (int b = 0; b < inverseInertias.Length; b++)
         {
             Vector3d inverse = inverseInertias[b];
             if (inverse.X == 0 || inverse.Y == 0 || inverse.Z == 0)
             {
-                frozen.Add(b);
+                locked.Add(b);
             }
         }
 
-        return frozen.ToArray();
+        return locked.ToArray();
     }
 
     private bool[] FindAngular()

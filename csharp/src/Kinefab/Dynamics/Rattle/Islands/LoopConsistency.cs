@@ -19,9 +19,9 @@ internal readonly struct InconsistentLoop
     public readonly int[] Joints;
     public readonly LoopConsistency Consistency;
 
-    public InconsistentLoop(int[] joints, LoopConsistency fit)
+    public InconsistentLoop(int[] joints, LoopConsistency consistency)
     {
         Joints = joints;
-        Consistency = fit;
+        Consistency = consistency;
     }
 }

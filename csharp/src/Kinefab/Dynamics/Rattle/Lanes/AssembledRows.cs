@@ -5,8 +5,8 @@ using Kinefab.Numerics;
 namespace Kinefab.Dynamics.Rattle;
 
 /// <summary>
-/// Rows that a joint's or coupling's own Prepare writes: single locked angles, couplings, and all scalar rows. They
-/// are not written in lanes: islands with such rows are solved one at a time.
+/// Rows that a joint's or coupling's own Prepare writes: single locked angles, couplings of other joints than hinges, and all scalar rows. They
+/// are not written in lanes: a step with such rows is made of one island at a time.
 /// </summary>
 internal static class AssembledRows<V>
     where V : struct, ILane<V>
@@ -174,13 +174,13 @@ internal static class AssembledRows<V>
 /// </summary>
 internal ref struct RowSlots
 {
-    private readonly RowBlock _node;
+    private readonly RowBlock _block;
     private int _drives;
     private int _angles;
 
     public RowSlots(RowBlock block)
     {
-        _node = block;
+        _block = block;
         _drives = 0;
         _angles = 0;
     }
@@ -190,7 +190,7 @@ internal ref struct RowSlots
     {
         if (row.Has(RowFlags.Drive))
         {
-            return _drives < _node.Drives ? _drives++ : -1;
+            return _drives < _block.Drives ? _drives++ : -1;
         }
 
         if (!row.Has(RowFlags.Limit))
@@ -198,17 +198,17 @@ internal ref struct RowSlots
             return -1;
         }
 
-        int first = _node.Drives + (_node.HasCone ? 1 : 0);
+        int first = _block.Drives + (_block.HasCone ? 1 : 0);
         if (!row.Has(RowFlags.Angular))
         {
-            return first + _node.AngleLimits;
+            return first + _block.AngleLimits;
         }
 
         if (row.Has(RowFlags.Cone))
         {
-            return _node.HasCone ? _node.Drives : -1;
+            return _block.HasCone ? _block.Drives : -1;
         }
 
-        return _angles < _node.AngleLimits ? first + _angles++ : -1;
+        return _angles < _block.AngleLimits ? first + _angles++ : -1;
     }
 }

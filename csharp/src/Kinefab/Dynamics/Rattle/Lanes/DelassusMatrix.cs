@@ -31,7 +31,7 @@ internal static class DelassusMatrix<V>
     private const int HubRows = 6;
     private const int RootCount = 11;
 
-    // Share of the trace of an inverse inertia under which what is left of it is rounding: of a frozen axis. A row along one has as
+    // Share of the trace of an inverse inertia under which what is left of it is rounding: of an axis of infinite moment. A row along one has as
     // much on its diagonal, as it has by rounding where the body is eliminated: with less, the rounding of its speed were a large impulse.
     private const double LeastRoot = 1e-15;
 
@@ -157,7 +157,7 @@ internal static class DelassusMatrix<V>
         }
     }
 
-    // Of the mass, and of the inverse inertia three columns, by Cholesky's rule with the largest pivot first: 0 for what is frozen.
+    // Of the mass, and of the inverse inertia three columns, by Cholesky's rule with the largest pivot first: 0 for an infinite moment.
     private static void WriteRoots(LaneRecords<V> batch, int body, int to)
     {
         int w = Lane<V>.Width;

@@ -37,18 +37,18 @@ internal static class FreeMotion<V>
             (x + step * LaneVector<V>.Load(a, o, BodyLanes.V)).Store(a, o, BodyLanes.EndX);
         }
 
-        RotationSplitting[] spins = batch.Shape.RotationSplittings;
+        RotationSplitting[] splittings = batch.Shape.RotationSplittings;
         for (int body = 0; body < batch.Shape.MovingBodies; body++)
         {
-            int alike = CountAlike(spins, body, batch.Shape.MovingBodies);
+            int alike = CountAlike(splittings, body, batch.Shape.MovingBodies);
             if (alike >= LeastTogether)
             {
-                RotateTogether(a, body, alike, h, spins[body], batch.Work.Turns);
+                RotateTogether(a, body, alike, h, splittings[body], batch.Work.Turns);
                 body += alike - 1;
             }
             else
             {
-                Rotate(a, LaneRecords<V>.Body(body, 0), h, spins[body]);
+                Rotate(a, LaneRecords<V>.Body(body, 0), h, splittings[body]);
             }
         }
 
@@ -153,16 +153,16 @@ internal static class FreeMotion<V>
     /// Half the rate of the sphere's turn, rad/s: of a body that can exist no more than the angular speed, since the largest
     /// moment is at most the sum of the others; of one that cannot, it says how wide the single turns are.
     /// </summary>
-    public static Lane<V> SphericalHalfRate(double[] bodies, int o, RotationSplitting spin)
+    public static Lane<V> SphericalHalfRate(double[] bodies, int o, RotationSplitting splitting)
     {
         int w = Lane<V>.Width;
         LaneVector<V> momentum = LaneVector<V>.Load(bodies, o, BodyLanes.L);
-        Lane<V> inverse = Lane<V>.Load(bodies, o + spin.Spherical * w, BodyLanes.InverseInertia);
+        Lane<V> inverse = Lane<V>.Load(bodies, o + splitting.Spherical * w, BodyLanes.InverseInertia);
         return Lane<V>.Splat(0.5) * inverse * Lane<V>.Sqrt(LaneVector<V>.Dot(momentum, momentum));
     }
 
     // Up to so many bodies from one on that turn by the same formulas and may do so side by side: on the only lane, if the processor has others.
-    private static int CountAlike(RotationSplitting[] spins, int first, int count)
+    private static int CountAlike(RotationSplitting[] splittings, int first, int count)
     {
         if (Lane<V>.Width > 1 || !Double4.CanTranspose)
         {
@@ -170,7 +170,7 @@ internal static class FreeMotion<V>
         }
 
         int alike = 1;
-        while (alike < Together && first + alike < count && spins[first + alike].Equals(spins[first]))
+        while (alike < Together && first + alike < count && splittings[first + alike].Equals(splittings[first]))
         {
             alike++;
         }
@@ -179,7 +179,7 @@ internal static class FreeMotion<V>
     }
 
     // Fewer than four are joined by copies of the last.
-    private static void RotateTogether(double[] a, int first, int count, double h, RotationSplitting spin, double[] turns)
+    private static void RotateTogether(double[] a, int first, int count, double h, RotationSplitting splitting, double[] turns)
     {
         int o0 = LaneRecords<V>.Body(first, 0);
         int o1 = LaneRecords<V>.Body(first + Math.Min(1, count - 1), 0);
@@ -189,7 +189,7 @@ internal static class FreeMotion<V>
         Gather(a, o0, o1, o2, o3, BodyLanes.Q + 1, turns);
         Gather(a, o0, o1, o2, o3, BodyLanes.InverseInertia, turns);
 #if NET
-        FreeMotion<Lane4>.Rotate(turns, 0, h, spin);
+        FreeMotion<Lane4>.Rotate(turns, 0, h, splitting);
 #endif
         Scatter(turns, BodyLanes.EndQ, a, o0, o1, o2, o3);
         Scatter(turns, BodyLanes.R, a, o0, o1, o2, o3);
@@ -227,20 +227,20 @@ internal static class FreeMotion<V>
 
     // Body axes are taken in the cyclic order that puts the sphere's axis last; a cyclic relabelling of the world's axes too
     // leaves all formulas as they are. Each turn is a method of its own, small enough that the compiler inlines its arithmetic.
-    internal static void Rotate(double[] a, int o, double h, RotationSplitting spin)
+    internal static void Rotate(double[] a, int o, double h, RotationSplitting splitting)
     {
-        RotateSpherical(a, o, h / 2, spin.Spherical);
-        if (spin.IsBDistinct)
+        RotateSpherical(a, o, h / 2, splitting.Spherical);
+        if (splitting.IsBDistinct)
         {
-            MomentumToBody(a, o, spin);
-            RotateAboutA(a, o, h / 4, spin);
-            RotateAboutB(a, o, h / 2, spin);
-            RotateAboutA(a, o, h / 4, spin);
+            MomentumToBody(a, o, splitting);
+            RotateAboutA(a, o, h / 4, splitting);
+            RotateAboutB(a, o, h / 2, splitting);
+            RotateAboutA(a, o, h / 4, splitting);
         }
-        else if (spin.IsADistinct)
+        else if (splitting.IsADistinct)
         {
-            MomentumToBody(a, o, spin);
-            RotateAboutA(a, o, h / 2, spin);
+            MomentumToBody(a, o, splitting);
+            RotateAboutA(a, o, h / 2, splitting);
         }
 
         Normalise(a, o);
@@ -263,24 +263,24 @@ internal static class FreeMotion<V>
 
     // L in the body's axes at the start, in the order first, second, sphere.
     [MethodImpl(MethodImplOptions.NoInlining)]
-    private static void MomentumToBody(double[] a, int o, RotationSplitting spin)
+    private static void MomentumToBody(double[] a, int o, RotationSplitting splitting)
     {
         int w = Lane<V>.Width;
         LaneVector<V> local = LaneQuaternion<V>.Load(a, o, BodyLanes.Q).InverseRotate(LaneVector<V>.Load(a, o, BodyLanes.L));
         local.Store(a, o, BodyLanes.BodyMomentum);
-        Permuted(a, o + BodyLanes.BodyMomentum * w, spin).Store(a, o, BodyLanes.BodyMomentum);
+        Permuted(a, o + BodyLanes.BodyMomentum * w, splitting).Store(a, o, BodyLanes.BodyMomentum);
     }
 
     [MethodImpl(MethodImplOptions.NoInlining)]
-    private static void RotateAboutA(double[] a, int o, double half, RotationSplitting spin)
+    private static void RotateAboutA(double[] a, int o, double half, RotationSplitting splitting)
     {
         int w = Lane<V>.Width;
         LaneVector<V> local = LaneVector<V>.Load(a, o, BodyLanes.BodyMomentum);
-        Lane<V> angle = Lane<V>.Splat(half) * Excess(a, o, spin.AxisA, spin) * local.X;
+        Lane<V> angle = Lane<V>.Splat(half) * Excess(a, o, splitting.AxisA, splitting) * local.X;
         HalfAngle(angle, out Lane<V> s, out Lane<V> c);
-        LaneVector<V> v = Permuted(a, o + BodyLanes.EndQ * w, spin);
+        LaneVector<V> v = Permuted(a, o + BodyLanes.EndQ * w, splitting);
         Lane<V> scalar = Lane<V>.Load(a, o, BodyLanes.EndQ + 3);
-        StorePermuted(new LaneVector<V>(c * v.X + s * scalar, c * v.Y + s * v.Z, c * v.Z - s * v.Y), a, o + BodyLanes.EndQ * w, spin);
+        StorePermuted(new LaneVector<V>(c * v.X + s * scalar, c * v.Y + s * v.Z, c * v.Z - s * v.Y), a, o + BodyLanes.EndQ * w, splitting);
         (c * scalar - s * v.X).Store(a, o, BodyLanes.EndQ + 3);
 
         // L is fixed in the world: in the body it turns the other way, by the whole angle.
@@ -291,15 +291,15 @@ internal static class FreeMotion<V>
     }
 
     [MethodImpl(MethodImplOptions.NoInlining)]
-    private static void RotateAboutB(double[] a, int o, double half, RotationSplitting spin)
+    private static void RotateAboutB(double[] a, int o, double half, RotationSplitting splitting)
     {
         int w = Lane<V>.Width;
         LaneVector<V> local = LaneVector<V>.Load(a, o, BodyLanes.BodyMomentum);
-        Lane<V> angle = Lane<V>.Splat(half) * Excess(a, o, spin.AxisB, spin) * local.Y;
+        Lane<V> angle = Lane<V>.Splat(half) * Excess(a, o, splitting.AxisB, splitting) * local.Y;
         HalfAngle(angle, out Lane<V> s, out Lane<V> c);
-        LaneVector<V> v = Permuted(a, o + BodyLanes.EndQ * w, spin);
+        LaneVector<V> v = Permuted(a, o + BodyLanes.EndQ * w, splitting);
         Lane<V> scalar = Lane<V>.Load(a, o, BodyLanes.EndQ + 3);
-        StorePermuted(new LaneVector<V>(c * v.X - s * v.Z, c * v.Y + s * scalar, c * v.Z + s * v.X), a, o + BodyLanes.EndQ * w, spin);
+        StorePermuted(new LaneVector<V>(c * v.X - s * v.Z, c * v.Y + s * scalar, c * v.Z + s * v.X), a, o + BodyLanes.EndQ * w, splitting);
         (c * scalar - s * v.Y).Store(a, o, BodyLanes.EndQ + 3);
         Lane<V> sine = (s + s) * c;
         Lane<V> cosine = c * c - s * s;
@@ -317,26 +317,26 @@ internal static class FreeMotion<V>
 
     // 1 / I of an axis less that of the sphere's.
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
-    private static Lane<V> Excess(double[] a, int o, int axis, RotationSplitting spin)
+    private static Lane<V> Excess(double[] a, int o, int axis, RotationSplitting splitting)
     {
         int w = Lane<V>.Width;
-        return Lane<V>.Load(a, o + axis * w, BodyLanes.InverseInertia) - Lane<V>.Load(a, o + spin.Spherical * w, BodyLanes.InverseInertia);
+        return Lane<V>.Load(a, o + axis * w, BodyLanes.InverseInertia) - Lane<V>.Load(a, o + splitting.Spherical * w, BodyLanes.InverseInertia);
     }
 
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
-    private static LaneVector<V> Permuted(double[] a, int at, RotationSplitting spin)
+    private static LaneVector<V> Permuted(double[] a, int at, RotationSplitting splitting)
     {
         int w = Lane<V>.Width;
-        return new LaneVector<V>(Lane<V>.Load(a, at + spin.AxisA * w), Lane<V>.Load(a, at + spin.AxisB * w), Lane<V>.Load(a, at + spin.Spherical * w));
+        return new LaneVector<V>(Lane<V>.Load(a, at + splitting.AxisA * w), Lane<V>.Load(a, at + splitting.AxisB * w), Lane<V>.Load(a, at + splitting.Spherical * w));
     }
 
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
-    private static void StorePermuted(LaneVector<V> v, double[] a, int at, RotationSplitting spin)
+    private static void StorePermuted(LaneVector<V> v, double[] a, int at, RotationSplitting splitting)
     {
         int w = Lane<V>.Width;
-        v.X.Store(a, at + spin.AxisA * w);
-        v.Y.Store(a, at + spin.AxisB * w);
-        v.Z.Store(a, at + spin.Spherical * w);
+        v.X.Store(a, at + splitting.AxisA * w);
+        v.Y.Store(a, at + splitting.AxisB * w);
+        v.Z.Store(a, at + splitting.Spherical * w);
     }
 
     // Sine and cosine of half the angle of a turn, from that half.

@@ -287,7 +287,7 @@ internal static class LaneTransfer<V>
         LaneVector<V>.Gather(MemoryMarshal.Cast<Vector3d, double>(bodies.Torques), members, 3, 0).Store(a, o, BodyLanes.Torque);
     }
 
-    // A frozen rotation takes no torque: in the angular momentum it would spill into the axes that do turn.
+    // An axis of infinite moment takes no torque: in the angular momentum it would spill into the axes that do turn.
     private static void ClearLockedTorque(LaneRecords<V> batch, int b, Bodies bodies)
     {
         int w = Lane<V>.Width;

@@ -10,7 +10,7 @@ namespace Kinefab.Dynamics.Rattle;
 internal static class LockedInertiaAxes<V>
     where V : struct, ILane<V>
 {
-    /// <summary>Takes what lies along frozen axes, as they stand at the start of the step, out of the angular momenta.</summary>
+    /// <summary>Takes what lies along such axes, as they stand at the start of the step, out of the angular momenta.</summary>
     public static void ClearMomentum(LaneRecords<V> batch)
     {
         foreach (int body in batch.Shape.LockedInertiaBodies)

@@ -5,9 +5,10 @@ using Kinefab.Numerics;
 namespace Kinefab.Dynamics.Rattle;
 
 /// <summary>
-/// Remembers of an island the state in which no part of a step was found: it stands still there, so that the next step begins from the same and has
-/// the same answer, without a search. Whatever a step's outcome follows from is compared, to the bit; so that a changed force, target or limit lets
-/// the island go on at once, and what is remembered of another time changes nothing.
+/// Remembers of an island the state at the start of a step in which nothing moved, where that came after another such: the next step that begins from
+/// the same has the same answer, without a search. Compared are, to the bit, bodies, impulses, rows as their joints and paces of drives make them, what
+/// angles are counted on from, and how often the step is halved; so that a changed force, target or limit lets the island go on at once. What else its
+/// rows know of steps before is forgotten as it stands still.
 /// </summary>
 internal sealed class Standstill
 {
@@ -18,10 +19,10 @@ internal sealed class Standstill
     private double[] _now = Array.Empty<double>();
     private bool _isKnown;
 
-    /// <summary>Whether the last step was made in vain, so that the next one's start is worth remembering.</summary>
+    /// <summary>Whether nothing moved in the last step, so that the next one's start is worth remembering.</summary>
     public bool HasStood { get; private set; }
 
-    /// <summary>What was said of it.</summary>
+    /// <summary>What was said of that step.</summary>
     public StepVerdict Verdict { get; private set; }
 
     /// <summary>Whether the loaded state is the one that is known to have no motion; else it is the one that a next <see cref="Remember"/> is about.</summary>

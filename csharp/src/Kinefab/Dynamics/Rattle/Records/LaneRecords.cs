@@ -136,9 +136,9 @@ internal class LaneRecords<V>
     public void Exchange(StateTape tape)
     {
         Array.ForEach(Kept, tape.Array);
-        double softStep = CompliantStep;
-        tape.Value(ref softStep);
-        CompliantStep = softStep;
+        double compliantStep = CompliantStep;
+        tape.Value(ref compliantStep);
+        CompliantStep = compliantStep;
         Scalars?.Exchange(tape);
     }
 

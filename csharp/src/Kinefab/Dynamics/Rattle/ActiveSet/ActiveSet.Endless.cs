@@ -159,22 +159,23 @@ internal sealed partial class ActiveSet<V>
         for (int i = 0; i < _rows.Length; i++)
         {
             ref ScalarRow scalar = ref _rows[i];
-            if (!scalar.IsEndlessDrive || Side(scalar.Built.VelocityTarget) == -scalar.Pace.Side)
+            ref DrivePace pace = ref scalar.Pace;
+            if (!scalar.IsEndlessDrive || Side(scalar.Built.VelocityTarget) == -pace.Side)
             {
                 scalar.SlowDown(0);
             }
 
-            scalar.Pace.StartSpeed = scalar.IsEndlessDrive ? StartSpeed(scalar) : 0;
+            pace.StartSpeed = scalar.IsEndlessDrive ? StartSpeed(scalar) : 0;
             if (!scalar.IsEndlessDrive || !scalar.Built.Has(RowFlags.Motion))
             {
                 continue;
             }
 
-            double most = Math.Max(scalar.Built.Has(RowFlags.Angular) ? MostTurn : MostWay * FarthestBody(scalar), DrivePace.SlowerBy * dt * Math.Abs(scalar.Pace.StartSpeed));
+            double most = Math.Max(scalar.Built.Has(RowFlags.Angular) ? MostTurn : MostWay * FarthestBody(scalar), DrivePace.SlowerBy * dt * Math.Abs(pace.StartSpeed));
             double error = Math.Abs(scalar.Built.GeometricError);
-            while (most > 0 && scalar.Pace.Slowdowns < DrivePace.MostSlowdowns && error - error / scalar.Growth(dt) > most)
+            while (most > 0 && pace.Slowdowns < DrivePace.MostSlowdowns && error - error / scalar.Growth(dt) > most)
             {
-                scalar.SlowDown(scalar.Pace.Slowdowns + 1);
+                scalar.SlowDown(pace.Slowdowns + 1);
             }
         }
     }
@@ -199,18 +200,19 @@ internal sealed partial class ActiveSet<V>
                 continue;
             }
 
+            ref DrivePace pace = ref scalar.Pace;
             double asked = Math.Abs(scalar.Built.VelocityTarget);
-            scalar.Pace.Side = Side(scalar.Built.VelocityTarget);
-            double speed = StartSpeed(scalar) * scalar.Pace.Side;
+            pace.Side = Side(scalar.Built.VelocityTarget);
+            double speed = StartSpeed(scalar) * pace.Side;
             bool isFollowed = !scalar.Drive.IsStalled && speed >= LeastFollowed * asked - tolerance;
-            double little = LeastMoved * asked / scalar.Pace.Share;
-            bool comes = speed > Math.Max(0, scalar.Pace.StartSpeed * scalar.Pace.Side) + little;
+            double little = LeastMoved * asked / pace.Share;
+            bool comes = speed > Math.Max(0, pace.StartSpeed * pace.Side) + little;
             double growth = GrowthAtADeadPoint(ref scalar);
             bool stands = scalar.Drive.IsStalled && Math.Abs(speed) <= little
                 && Math.Abs(speed) * dt <= LeastWay * (scalar.Built.Has(RowFlags.Angular) ? 1 : FarthestBody(scalar));
-            int before = scalar.Pace.Slowdowns;
-            bool rests = scalar.Pace.Rests;
-            scalar.Pace.FollowedSlowdowns = isFollowed && !rests ? before : scalar.Pace.FollowedSlowdowns;
+            int before = pace.Slowdowns;
+            bool rests = pace.Rests;
+            pace.FollowedSlowdowns = isFollowed && !rests ? before : pace.FollowedSlowdowns;
             scalar.SlowDown(isFollowed && growth > MostHeavier ? Math.Min(DrivePace.MostSlowdowns, before + 1)
                 : isFollowed ? Math.Max(0, before - (growth > Heavier ? 0 : 1))
                 : stands || rests ? DrivePace.Resting
@@ -219,10 +221,10 @@ internal sealed partial class ActiveSet<V>
 
             // Not silently: it is named as one that stalls.
             scalar.Drive.IsStalled |= isFollowed && growth > MostHeavier;
-            scalar.Pace.HasRested = scalar.Pace.Rests;
-            isAny |= scalar.Pace.Slowdowns > 0;
-            scalar.Pace.RestingFreedom = rests ? scalar.Pace.RestingFreedom : double.NaN;
-            comesToRest |= before < scalar.Pace.Slowdowns && scalar.Pace.Slowdowns == DrivePace.Resting;
+            pace.HasRested = pace.Rests;
+            isAny |= pace.Slowdowns > 0;
+            pace.RestingFreedom = rests ? pace.RestingFreedom : double.NaN;
+            comesToRest |= before < pace.Slowdowns && pace.Slowdowns == DrivePace.Resting;
         }
 
         if (comesToRest)

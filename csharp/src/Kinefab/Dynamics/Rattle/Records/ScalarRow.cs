@@ -65,8 +65,10 @@ internal struct ScalarRow
     /// <summary>A bound of force beyond this is none: Unity's own "no limit" is the largest float, 3.4e38.</summary>
     public const double Endless = 1e30;
 
-    public RowKind Kind;
-    public RowState State;
+    /// <summary>Block, row in the block and row in the vectors.</summary>
+    public int Block;
+    public int BlockRow;
+    public int Index;
 
     /// <summary>J, and C at the pose of the last Build.</summary>
     public ConstraintRow Built;
@@ -79,6 +81,10 @@ internal struct ScalarRow
 
     /// <summary>Whether Prepare wrote that row where it was last asked.</summary>
     public bool HasEnd;
+
+    /// <summary>What it is in the step, and where it stands: as all that follows the active set's to say.</summary>
+    public RowKind Kind;
+    public RowState State;
 
     /// <summary>What the factored matrix has of it.</summary>
     public ProjectedAs ProjectedAs;
@@ -117,11 +123,6 @@ internal struct ScalarRow
 
     /// <summary>And how fast it goes as such.</summary>
     public DrivePace Pace;
-
-    /// <summary>Block, row in the block and row in the vectors.</summary>
-    public int Block;
-    public int BlockRow;
-    public int Index;
 
     /// <summary>
     /// What acts before the drift of an impulse at its bound: half of it, as of all that is constant in a step, also where a spring is too stiff for the

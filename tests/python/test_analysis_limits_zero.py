@@ -170,7 +170,7 @@ def test_the_levers_slide_is_limited_where_it_stops(tmp_path, hand, value):
     assert (swept.lower, swept.upper) == pytest.approx((0.01 * value + back, 0.01 * value + on), abs=1e-7)
     listed = next(r for r in document(found)["ranges"] if r["joint"] == "Joint:Slide")
     assert (listed["freedom"], listed["lower"], listed["upper"]) == ("tx", swept.lower, swept.upper)
-    assert f"range of Joint:Slide: {swept.lower:.6g} to {swept.upper:.6g} m" in table(found)
+    assert f"range of Slide: {swept.lower:.6g} to {swept.upper:.6g} m" in table(found)
     content, _ = exported(scene, tmp_path, limits=True)
     joint = next(c for c in components(content, "SliderD:1", "ConfigurableJoint") if "connectedBody" not in c)
     assert joint["xMotion"] == "Limited" and joint["linearLimit"]["limit"] == pytest.approx(0.025, abs=1e-8)

@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 import math
+from dataclasses import replace
 
 import numpy as np
 import pytest
-from kinefab.analysis import analyse
+from kinefab.analysis import AnalysisOptions, analyse
 from kinefab.analysis.findings.summary import document
 from kinefab.analysis.findings.table import table
 from kinefab.diagnostics import Report
@@ -134,3 +135,17 @@ def test_a_joint_whose_second_body_is_the_ground_is_told_too(tmp_path):
     assert table(found).splitlines()[2].split()[-4:] == ["pin", "slot", "ground", "pin"]
     content, _ = exported(source, tmp_path)
     assert [c["type"] for c in joints_of(content)] == ["ConfigurableJoint"]
+
+
+def test_a_range_is_called_as_its_joint_is_in_the_table():
+    """By the user's name, which drives it too; where two joints share one the id says which."""
+    lever = read(ROOT / "fixtures" / "lever" / "lever.bundle.json", Report())
+    assert told_ranges(lever) == ["Shaft", "Slide", "Eccentric pin"]
+    lever.joints = [replace(j, name="Shaft") if j.id == "Joint:Slide" else j for j in lever.joints]
+    assert told_ranges(lever) == ["Shaft (Joint:Shaft)", "Shaft (Joint:Slide)", "Eccentric pin"]
+
+
+def told_ranges(source: Scene) -> list[str]:
+    """What the table calls the joints that it tells a range of."""
+    lines = table(analyse(source, AnalysisOptions(limits=True))).splitlines()
+    return [line.removeprefix("range of ").rpartition(": ")[0] for line in lines if line.startswith("range of ")]

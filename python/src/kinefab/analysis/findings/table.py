@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections import Counter
 from collections.abc import Iterable, Iterator, Mapping
 from typing import Any
 
@@ -29,10 +30,11 @@ def table(analysis: Analysis) -> str:
         parts = ", ".join(analysis.source.nodes[n].id for n in idle.nodes)
         can = f"can move in {_counted(idle.count, 'way')} that {'moves' if idle.count == 1 else 'move'} nothing else"
         lines.append(f"idle: {parts} {can}")
+    called = _called(analysis.joints)
     for found in analysis.ranges:
         unit, factor = ("deg", math.degrees(1.0)) if found.freedom >= RX else ("m", 1.0)
         ends = " to ".join(f"{end * factor:.6g}" for end in found.displayed) + f" {unit}"
-        lines.append(f"range of {found.joint}: {'no end' if found.endless else ends}")
+        lines.append(f"range of {called.get(found.joint, found.joint)}: {'no end' if found.endless else ends}")
     for option, names in analysis.source.offers.items():
         lines.append(f"the source also has: --{option} {_shortened(names)}")
     loops = sum(i.loops for i in analysis.islands)
@@ -103,6 +105,13 @@ def _kind(joint: Joint, found: JointFinding) -> str:
     if metres or radians:
         words.append(f"(approximated, off by up to {metres:.2g} m or {math.degrees(radians):.2g} deg)")
     return " ".join(words)
+
+
+def _called(joints: Iterable[Joint]) -> dict[str, str]:
+    """Each joint's own name by its id, as the table above has it, and the id too where several are called alike."""
+    joints = list(joints)
+    often = Counter(joint.name for joint in joints)
+    return {j.id: j.name if often[j.name] == 1 else f"{j.name} ({j.id})" for j in joints if j.name}
 
 
 def _coupling(coupling: Coupling) -> str:

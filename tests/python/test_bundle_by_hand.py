@@ -174,6 +174,45 @@ def test_check_tells_every_layer_at_once(tmp_path):
     assert run("bundle", "check", path).exit_code == 1
 
 
+@pytest.mark.parametrize(
+    "change, near",
+    [
+        (lambda v: v["constraints"][0].update(kind="Concentic"), "concentric, coincident"),
+        (lambda v: v["constraints"][0]["a"].update(geometry="cylindre"), "cylinder, line"),
+        (lambda v: v["constraints"][0]["a"].update(component="Crnk"), "Crank"),
+        (lambda v: v["constraints"][0]["a"].update({"in": "wrld"}), "world"),
+        (lambda v: v["components"][1].update(parent="Bsae"), "Base"),
+        (lambda v: v["components"][1].update(bodies=[{"name": "b", "material": "stel"}]), "Steel"),
+        (lambda v: v["couplings"][0]["a"].update(joint="shaft"), "Shaft"),
+        (lambda v: v.update(joint=v.pop("joints"), couplings=[]), "joints"),
+    ],
+)
+def test_a_misspelt_word_is_told_with_what_is_near(tmp_path, change, near):
+    """Whoever writes by hand misses letters; a list of twenty words is no answer to that."""
+    line = {"geometry": "line", "in": "world", "p": [0, 0, 0], "d": [0, 0, 1]}
+    turning = {"joint": "Shaft", "dof": "rz"}
+    shaft = {"type": "revolute", "a": "Base", "b": "Crank", "frameA": frame((0, 0, 0), (0, 0, 1))}
+    values = bundle(
+        part("Base", grounded=True),
+        part("Crank"),
+        materials=[{"name": "Steel", "density": 7850}],
+        joints=[{"id": "Shaft", **shaft}],
+        couplings=[{"id": "C", "kind": "gear", "a": dict(turning), "b": dict(turning), "ratio": 2}],
+        constraints=[
+            {
+                "id": "I",
+                "kind": "concentric",
+                "a": {"component": "Base", **line},
+                "b": {"component": "Crank", **line},
+            }
+        ],
+    )
+    change(values)
+    path = tmp_path / "misspelt.bundle.json"
+    path.write_text(json.dumps(values))
+    assert any(f"Near matches: {near}." in d.message for d in check(path)[0].diagnostics)
+
+
 @pytest.mark.parametrize("layout", [{}, {"layout": "per_part"}, {"layout": "single"}])
 @pytest.mark.parametrize("files", [[], ["a.stl", "b.stl"]])
 def test_a_file_needs_no_layout_and_no_bodies(tmp_path, layout, files):

@@ -11,6 +11,7 @@ import numpy as np
 
 from ...model import Body, MassProperties, MeshKey, MeshReference
 from ...spatial import Array
+from ..reading.near import near_matches
 from ..reading.placement import Placement
 from ..reading.record import Record
 from ..reading.source_frame import SourceFrame
@@ -73,7 +74,8 @@ def read_bodies(
         if (word := record.text("material", "")) in materials:
             material, density = materials[word]
         elif word:
-            record.fault("MATERIAL_UNKNOWN", "material", body=label, material=word)
+            near = near_matches(word, materials, record.log.report)
+            record.fault("MATERIAL_UNKNOWN", "material", body=label, material=word, near=near)
         if record.has("density"):
             density = record.number("density")
             if record.sound and density <= 0.0:
@@ -151,5 +153,6 @@ def frame_index(record: Record, own: int, index: Mapping[str, int]) -> int:
     if inside == "part":
         return own
     if inside not in ("world", "") and inside not in index:
-        record.fault("FRAME_UNKNOWN", "in", frame=inside)
+        near = near_matches(inside, ("world", "part", *index), record.log.report)
+        record.fault("FRAME_UNKNOWN", "in", frame=inside, near=near)
     return index.get(inside, -1)

@@ -9,6 +9,7 @@ import numpy as np
 from ...diagnostics import chained
 from ...model import Node, NodeKind
 from ...spatial import Array
+from ..reading.near import near_matches
 from ..reading.placement import ROUNDED, SKEWED, Placement, place
 from ..reading.record import REQUIRED, Log, Record, Vector, shown
 from ..reading.source_frame import SourceFrame
@@ -46,7 +47,8 @@ class Components:
         """The node that a field names; -1 for the ground, and after a fault."""
         name = record.text(key)
         if name and name != GROUND and name not in self.index:
-            record.fault("COMPONENT_UNKNOWN", key, feature=feature, component=name)
+            near = near_matches(name, self.index, record.log.report)
+            record.fault("COMPONENT_UNKNOWN", key, feature=feature, component=name, near=near)
         return self.index.get(name, -1)
 
 
@@ -117,7 +119,8 @@ def _parents_first(records: dict[str, Record], parents: dict[str, str]) -> list[
                 break
             chain[name] = None
             if (parent := parents[name]) and parent not in records:
-                records[name].fault("PARENT_UNKNOWN", "parent", component=name, parent=parent)
+                near = near_matches(parent, records, records[name].log.report)
+                records[name].fault("PARENT_UNKNOWN", "parent", component=name, parent=parent, near=near)
                 break
             name = parent
         ordered.update(dict.fromkeys(reversed(chain)))

@@ -3,6 +3,7 @@ interpreted."""
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Any
 
@@ -10,7 +11,8 @@ import numpy as np
 
 from ...diagnostics import is_encodable
 from ...model import Constraint, ConstraintKind, DofRecord, Feature, FeatureKind, Sense, Side
-from ..reading.record import REQUIRED, Log, Record, Vector, is_object
+from ..reading.near import near_words
+from ..reading.record import REQUIRED, Log, Record, Vector, is_object, shown
 from ..reading.source_frame import SourceFrame
 from .bodies import frame_index
 from .components import Components
@@ -92,9 +94,7 @@ def _fields(
     word = record.text("kind")
     kind = KINDS.get(word, ConstraintKind.OTHER)
     if word and word not in KINDS:
-        log.approximated(
-            feature, "CONSTRAINT_KIND_UNKNOWN", f"{record.pointer}/kind", word=word, known=", ".join(KINDS)
-        )
+        _unknown(log, feature, "CONSTRAINT_KIND_UNKNOWN", f"{record.pointer}/kind", word, KINDS)
     sides: dict[str, str] = {}
     for key in "abc":
         optional = key == "c" or kind in ONE_SIDED and (key == "b" or kind is ConstraintKind.OTHER)
@@ -134,6 +134,11 @@ def _fields(
     )
 
 
+def _unknown(log: Log, feature: str, code: str, place: str, word: str, known: Mapping[str, object]) -> None:
+    near = near_words(word, known, log.report)
+    log.approximated(feature, code, place, word=shown(word), near=near, known=", ".join(known))
+
+
 def _unit(kind: ConstraintKind, signed: bool, frame: SourceFrame) -> float:
     """What one unit of a constraint's value is; an angle between two directions has no sign, one about an axis has."""
     if kind in IN_ANGLES:
@@ -169,8 +174,7 @@ def _feature(
     word = record.text("geometry")
     kind = GEOMETRY.get(word, FeatureKind.BODY)
     if word and word not in GEOMETRY:
-        place = f"{record.pointer}/geometry"
-        log.approximated(feature, "CONSTRAINT_GEOMETRY_UNKNOWN", place, word=word, known=", ".join(GEOMETRY))
+        _unknown(log, feature, "CONSTRAINT_GEOMETRY_UNKNOWN", f"{record.pointer}/geometry", word, GEOMETRY)
     bare = kind is FeatureKind.BODY
     inside = node if bare and not record.has("in") else frame_index(record, node, components.index)
     draft = FeatureDraft(

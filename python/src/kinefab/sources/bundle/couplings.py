@@ -6,6 +6,7 @@ import math
 
 from ...model import RX, Coupling, CouplingKind, Joint, Term
 from ..reading.joint_frames import freedom_names
+from ..reading.near import near_matches
 from ..reading.record import REQUIRED, Log, Record
 from ..reading.source_frame import SourceFrame
 from .joints import GAP_ANGLE, GAP_LENGTH, Joints
@@ -54,7 +55,8 @@ def _end(
     name, word = record.text("joint"), record.text("dof")
     joint = by_id.get(name)
     if joint is None and record.sound and name not in joints.inactive:
-        record.fault("JOINT_UNKNOWN", "joint", feature=feature, joint=name)
+        near = near_matches(name, by_id, record.log.report)
+        record.fault("JOINT_UNKNOWN", "joint", feature=feature, joint=name, near=near)
     freedom = freedom_names(joint.kind).get(word) if joint is not None else None
     if joint is not None and record.sound and freedom not in joint.unlocked:
         record.fault("COUPLING_FREEDOM_LOCKED", "dof", feature=feature, joint=name, freedom=word)

@@ -12,6 +12,7 @@ from dataclasses import dataclass, field
 from typing import Any, TypeGuard, TypeVar, cast, overload
 
 from ...diagnostics import Report, Severity, diagnostic_table, is_encodable
+from .near import near_words
 
 T = TypeVar("T")
 Vector = tuple[float, float, float]
@@ -112,7 +113,8 @@ class Record:
         if not values.keys() <= known:
             for key in sorted(values.keys() - known - {"extras"}):
                 escaped = shown(key).replace("~", "~0").replace("/", "~1")
-                log.add("BUNDLE_FIELD_UNKNOWN", f"{pointer}/{escaped}", field=shown(key))
+                near = near_words(key, known, log.report)
+                log.add("BUNDLE_FIELD_UNKNOWN", f"{pointer}/{escaped}", field=shown(key), near=near)
 
     def fault(self, code: str, key: str = "", **values: object) -> None:
         """Report ``code`` at the field ``key`` (at the record itself when empty)."""

@@ -6,16 +6,14 @@ No entity of the file's own is taken, inside or outside: such a file can grow wi
 from __future__ import annotations
 
 import codecs
-import difflib
 import math
 import re
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field
-from itertools import islice
 from typing import TypeVar
 from xml.parsers import expat
 
-from ...diagnostics import MOST_ALIKE, KinefabError, Report, Severity, is_encodable
+from ...diagnostics import KinefabError, Report, Severity, is_encodable
 from ..reading.record import MAX_NUMBER, shown
 
 T = TypeVar("T")
@@ -29,8 +27,6 @@ _ANOTHER = re.compile(rb"<[A-Za-z_]")
 _BARE = re.compile(rb"&(?!#?\w+;)")
 _NO_VERSION = re.compile(rb"\A<\?xml(?![^>]*\bversion\s*=)[^>\n]*\?>")
 
-ABOUT = 5
-"""Letters by which the length of a near match may differ."""
 MAX_DEPTH = 128
 MAX_ELEMENTS = 2_000_000
 
@@ -151,15 +147,6 @@ class Element:
 def truth(text: str, default: bool = False) -> bool:
     """What true, 1, false and 0 say, in letters of any size; ``default`` for all else."""
     return {"true": True, "1": True, "false": False, "0": False}.get(text.strip().lower(), default)
-
-
-def near_matches(name: str, known: Mapping[str, object] | set[str], report: Report) -> str:
-    """For a message: names that look like ``name``, or "none".  They are sought among a thousand of about its length, and
-    not for findings beyond those that are listed."""
-    if len(report.diagnostics) >= MOST_ALIKE:
-        return "not sought"
-    alike = (other for other in known if abs(len(other) - len(name)) <= ABOUT)
-    return ", ".join(difflib.get_close_matches(name, list(islice(alike, 1000)), 3)) or "none"
 
 
 def _number(word: str) -> float:

@@ -9,10 +9,11 @@ import numpy as np
 
 from ...diagnostics import Report
 from ...spatial import Pose, matrix_from_quaternion
+from ..reading.near import near_matches
 from ..robots.packages import Packages
 from ..robots.robot_frame import rotation_rpy
 from ..robots.unread import Unread
-from ..robots.xml_elements import Element, near_matches, truth
+from ..robots.xml_elements import Element, truth
 
 SCOPE_FRAMES = ("__model__", "__root__")
 

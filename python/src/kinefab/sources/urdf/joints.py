@@ -10,8 +10,9 @@ import numpy as np
 
 from ...diagnostics import Report
 from ...spatial import Array, Pose
+from ..reading.near import near_matches
 from ..robots.rigid_links import Link
-from ..robots.xml_elements import Element, near_matches
+from ..robots.xml_elements import Element
 from .links import origin
 from .robot import Mimic, Robot, UrdfJoint
 

@@ -213,6 +213,17 @@ def test_a_misspelt_word_is_told_with_what_is_near(tmp_path, change, near):
     assert any(f"Near matches: {near}." in d.message for d in check(path)[0].diagnostics)
 
 
+def test_a_bundle_without_components_is_told_once(tmp_path):
+    """And not again by all that names one: the lever's said it thirty times."""
+    values = json.loads((FIXTURES / "lever" / "lever.bundle.json").read_text("utf-8"))
+    values["component"] = values.pop("components")
+    path = tmp_path / "none.bundle.json"
+    path.write_text(json.dumps(values))
+    found = check(path)[0].diagnostics
+    assert [d.code for d in found] == ["BUNDLE_FIELD_UNKNOWN", "BUNDLE_WITHOUT_COMPONENTS"]
+    assert "Near matches: components." in found[0].message and "'components'" in found[1].remedy
+
+
 @pytest.mark.parametrize("layout", [{}, {"layout": "per_part"}, {"layout": "single"}])
 @pytest.mark.parametrize("files", [[], ["a.stl", "b.stl"]])
 def test_a_file_needs_no_layout_and_no_bodies(tmp_path, layout, files):

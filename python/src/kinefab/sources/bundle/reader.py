@@ -41,6 +41,8 @@ FORMAT, MAJOR = "kinefab.bundle", 1
 
 MEASURED = frozenset("JOINT_VALUE_MISMATCH JOINT_FLIP_MISMATCH COUPLING_GAP POSE_MIRRORED".split())
 """Findings that compare numbers: without units and axes they would be misread, and nothing is said."""
+NAMING = frozenset("COMPONENT_UNKNOWN FRAME_UNKNOWN".split())
+"""Findings of whatever names a component: where there is none at all, that is said once."""
 
 
 def sniff(head: bytes) -> bool:
@@ -106,6 +108,8 @@ def draft_from_values(
     scene.constraints = read_constraints(bundle, components, frame, log)
     scene.dof_records = read_freedoms(bundle, components, log)
     scene.extras = bundle.extras()
+    if not components.nodes:
+        report.diagnostics[before:] = [d for d in report.diagnostics[before:] if d.code not in NAMING]
     if misread:  # the rest was looked at all the same, so that everything is told at once
         untold = MEASURED if bundle.has("meta") else MEASURED | {"BODY_WITHOUT_MESH"}
         report.diagnostics[before:] = [d for d in report.diagnostics[before:] if d.code not in untold]

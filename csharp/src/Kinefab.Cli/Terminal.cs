@@ -45,6 +45,11 @@ internal sealed class Terminal(TextWriter target) : TextWriter
         {
             Fault = fault;
         }
+        catch (UnauthorizedAccessException fault)
+        {
+            // A descriptor that is closed, or open for reading alone.
+            Fault = fault.InnerException ?? fault;
+        }
     }
 
     /// <inheritdoc/>

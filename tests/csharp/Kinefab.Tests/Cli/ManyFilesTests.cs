@@ -149,6 +149,7 @@ public sealed class ManyFilesTests
         Assert.That(Shell($"cat '{Invalid}' | dotnet '{tool}' validate - 2>/dev/null").Exit, Is.EqualTo(1));
         foreach (string arguments in new[] { $"validate '{Valid}' --json", $"validate '{Valid}'", $"inspect '{FourBar}'", $"sweep '{FourBar}' --joint crank --steps 3 --json" })
             Assert.That(Shell($"dotnet '{tool}' {arguments} > /dev/full 2>/dev/null").Exit, Is.EqualTo(3), arguments);
+        Assert.That(Shell($"dotnet '{tool}' validate '{Valid}' 2>&1 >&-"), Is.EqualTo((3, "The output could not be written: Bad file descriptor\n")), "nobody takes it");
     }
 
     private static (int Exit, string Data) Shell(string line)

@@ -1,4 +1,6 @@
+using System.Collections.Generic;
 using System.IO;
+using System.Linq;
 using System.Text.Json;
 using Kinefab.Diagnostics;
 
@@ -7,11 +9,24 @@ namespace Kinefab.Cli;
 /// <summary>Reports as people and as programs read them.</summary>
 internal static class ReportWriter
 {
-    /// <summary>One line a finding on stderr, as compilers write them: file:line:column: severity CODE pointer: message remedy.</summary>
+    // Of one code: a robot has one for each effort and each speed of its joints.
+    private const int MostRemarks = 4;
+
+    /// <summary>
+    /// One line a finding on stderr, as compilers write them: file:line:column: severity CODE pointer: message remedy. Of remarks that are alike
+    /// the first ones, and how many more there are.
+    /// </summary>
     internal static void WriteLines(string file, Report report, TextWriter target)
     {
+        var remarks = new Dictionary<string, int>();
         foreach (Diagnostic found in report.Diagnostics)
-            target.WriteLine(Printable.Text(found.Line is null ? $"{file}: {found}" : $"{file}:{found}"));
+        {
+            if (found.Severity != Severity.Info || (remarks[found.Code] = remarks.GetValueOrDefault(found.Code) + 1) <= MostRemarks)
+                target.WriteLine(Printable.Text(found.Line is null ? $"{file}: {found}" : $"{file}:{found}"));
+        }
+
+        foreach ((string code, int count) in remarks.Where(remark => remark.Value > MostRemarks))
+            target.WriteLine(Printable.Text($"{file}: info {code}: {Counted.Of(count - MostRemarks, "more remark", "more remarks")} of this kind; --json lists all."));
     }
 
     /// <summary>The fields of schemas/report.schema.json into an open JSON object.</summary>

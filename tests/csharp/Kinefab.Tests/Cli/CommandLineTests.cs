@@ -200,6 +200,18 @@ public class CommandLineTests
         Assert.That(Run(arguments).Findings.TrimEnd().Split('\n')[^1], Does.StartWith("Run " + help));
 
     [Test]
+    public void Validate_ManyRemarksOfOneKind_TellsTheFirstAndHowManyMore()
+    {
+        string robot = Path.Combine(ConformanceCases.Folder, "invalid", "joint", "stated_axes_unfollowed.kinefab");
+        (int exit, _, string findings) = Run("validate", robot);
+        string[] lines = findings.ReplaceLineEndings("\n").TrimEnd().Split('\n');
+        Assert.That((exit, lines.Count(line => line.Contains("info JOINT_STATED_UNFOLLOWED /", StringComparison.Ordinal))), Is.EqualTo((0, 4)));
+        Assert.That(lines[^1], Is.EqualTo($"{robot}: info JOINT_STATED_UNFOLLOWED: 6 more remarks of this kind; --json lists all."));
+        using JsonDocument all = JsonDocument.Parse(Run("validate", robot, "--json").Data);
+        Assert.That(all.RootElement.GetProperty("diagnostics").GetArrayLength(), Is.EqualTo(10));
+    }
+
+    [Test]
     public void Help_Simulate_SaysThatSecondsAreRequired() =>
         Assert.That(Run("simulate", "--help").Data, Does.Match("--seconds <seconds> .*Required, but for --replay"));
 

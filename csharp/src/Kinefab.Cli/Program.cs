@@ -1,6 +1,7 @@
 using System;
 using System.CommandLine;
 using System.IO;
+using System.Linq;
 using Kinefab.Cli.Commands;
 
 namespace Kinefab.Cli;
@@ -36,11 +37,19 @@ internal static class Program
         ParseResult parsed = Commands().Parse(args);
         if (parsed.Errors.Count == 0)
             return parsed.Invoke(new InvocationConfiguration { Output = Console.Out, Error = Console.Error });
+        Command command = parsed.CommandResult.Command;
+        if (command is RootCommand)
+        {
+            // Not one sentence for each argument behind a mistyped command.
+            Console.Error.WriteLine(Printable.Text(parsed.UnmatchedTokens is [string first, ..]
+                ? $"There is no command '{first}'.{NearWords.Among(first, command.Subcommands.Select(one => one.Name))}"
+                : "A command is missing."));
+            return WrongUsage.Refuse("Run 'dotnet kinefab --help' for the commands.");
+        }
+
         foreach (var error in parsed.Errors)
             Console.Error.WriteLine(Printable.Text(error.Message));
-        return WrongUsage.Refuse(parsed.CommandResult.Command is RootCommand
-            ? "Run 'dotnet kinefab --help' for the commands."
-            : $"Run 'dotnet kinefab {parsed.CommandResult.Command.Name} --help' for its arguments and options.");
+        return WrongUsage.Refuse($"Run 'dotnet kinefab {command.Name} --help' for its arguments and options.");
     }
 
     /// <summary>Every command that there is.</summary>

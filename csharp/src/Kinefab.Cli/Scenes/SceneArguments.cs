@@ -1,5 +1,8 @@
+using System.Collections.Generic;
 using System.CommandLine;
+using System.CommandLine.Parsing;
 using System.Linq;
+using Kinefab.Cli.Commands;
 
 namespace Kinefab.Cli;
 
@@ -20,8 +23,10 @@ internal sealed class SceneArguments
     internal SceneArguments() => _files.Validators.Add(result =>
     {
         foreach (string name in result.Tokens.Select(token => token.Value).Where(name => name.Length > 1 && name[0] == '-'))
-            result.AddError($"Unrecognized option '{name}'. A file of this name is given as ./{name}.");
+            result.AddError($"Unrecognized option '{name}'.{NearWords.Among(name, Options(result))} A file of this name is given as ./{name}.");
     });
+
+    private static IEnumerable<string> Options(ArgumentResult files) => ((CommandResult)files.Parent!).Command.Options.Select(option => option.Name);
 
     /// <summary>Adds them to a command, the files first.</summary>
     internal void AddTo(Command command)

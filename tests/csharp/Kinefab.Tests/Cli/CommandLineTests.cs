@@ -199,6 +199,13 @@ public class CommandLineTests
     public void AnyCommand_WrongUsage_PointsToItsOwnHelp(string help, params string[] arguments) =>
         Assert.That(Run(arguments).Findings.TrimEnd().Split('\n')[^1], Does.StartWith("Run " + help));
 
+    [TestCase("There is no command 'validat'. Near matches: validate.", "validat", "a.kinefab")]
+    [TestCase("There is no command 'explode'.", "explode", "a.kinefab")]
+    [TestCase("A command is missing.")]
+    [TestCase("Unrecognized option '--stric'. Near matches: --strict. A file of this name is given as ./--stric.", "validate", "--stric", "a.kinefab")]
+    public void AnyCommand_Mistyped_IsToldOnceWithWhatIsNear(string told, params string[] arguments) =>
+        Assert.That(Run(arguments).Findings.ReplaceLineEndings("\n").TrimEnd().Split('\n')[..^1], Is.EqualTo([told]));
+
     [Test]
     public void Validate_ManyRemarksOfOneKind_TellsTheFirstAndHowManyMore()
     {

@@ -20,14 +20,14 @@ internal static class SweepText
             Line(target, $"stopped    {End(mechanism, stop)} {unit}");
         foreach (double jump in result.Jumps)
             Line(target, $"jumped     to another branch at {Number(jump)} {unit}");
-        Line(target, $"worst gap  {result.WorstErrorMetres.ToString("E1", CultureInfo.InvariantCulture)} m, {result.WorstErrorDegrees.ToString("E1", CultureInfo.InvariantCulture)} deg");
+        Line(target, $"worst gap  {result.WorstErrorMetres.ToString("0.0e+0", CultureInfo.InvariantCulture)} m, {result.WorstErrorDegrees.ToString("0.0e+0", CultureInfo.InvariantCulture)} deg");
         for (int i = 0; i < mechanism.Coordinates.Count; i++)
         {
             int index = i;
             MechanismCoordinate coordinate = mechanism.Coordinates[i];
             double least = result.States.Min(s => s.Coordinate(index));
             double most = result.States.Max(s => s.Coordinate(index));
-            Line(target, $"           {Name(mechanism, i)} {Number(least)} to {Number(most)} {(coordinate.IsAngle ? "deg" : "m")}");
+            Line(target, $"           {Name(mechanism, i)}{InWords(coordinate)} {Number(least)} to {Number(most)} {(coordinate.IsAngle ? "deg" : "m")}");
         }
     }
 
@@ -45,6 +45,10 @@ internal static class SweepText
     };
 
     private static string Name(Mechanism mechanism, int coordinate) => mechanism.Coordinates[coordinate].Name;
+
+    // What the source's user calls it, where that is no part of the name.
+    private static string InWords(MechanismCoordinate coordinate) =>
+        coordinate.Name.StartsWith(coordinate.ShortName, StringComparison.Ordinal) ? "" : $" \"{coordinate.ShortName}\"";
 
     private static void Line(TextWriter target, string text) => target.WriteLine(Printable.Text(text));
 

@@ -128,7 +128,7 @@ internal sealed class RunSummary
             string limit = limitAt is double at ? Text($", limit reached at {at:0.###} s") : "";
             string broken = BrokenAt is double when ? Text($", BROKEN at {when:0.###} s") : "";
             target.WriteLine(Text(
-                $"{Joint.Name} ({gameObject}): drift {distance:0.0e+0} m, {angle:0.0e+0} deg{string.Concat(ranges)}{limit}{broken}"));
+                $"{Joint.Name} {(Joint.NameInCad is string name ? $"\"{name}\"" : $"({gameObject})")}: drift {distance:0.0e+0} m, {angle:0.0e+0} deg{string.Concat(ranges)}{limit}{broken}"));
         }
 
         internal void WriteJson(Utf8JsonWriter json)

@@ -118,6 +118,15 @@ public sealed class SimulateCommandTests
     }
 
     [Test]
+    public void Simulate_JointsOfTheSource_AreCalledAsItsUserCallsThem()
+    {
+        string lever = Path.Combine(Dynamics.Scenario.Folder, "..", "..", "csharp", "examples", "LeverTests", "lever.kinefab");
+        string data = CommandLineTests.Run("simulate", lever, "--seconds", "0.02").Data;
+        Assert.That(data, Does.Contain("Lever/Crank:1 \"Shaft\": drift ").And.Contain("Lever/BarC:1[5] \"Slider pin\": drift "));
+        Assert.That(CommandLineTests.Run("sweep", lever, "--joint", "Shaft", "--steps", "1").Data, Does.Match("Lever/SliderD:1.x \"Slide\" .* m").And.Match("worst gap  [0-9.e-]+ m"));
+    }
+
+    [Test]
     public void Simulate_ExactSolver_MovesTheExportedLeverWithoutDriftOrLossOfEnergy()
     {
         string lever = Path.Combine(Dynamics.Scenario.Folder, "..", "..", "fixtures", "lever", "lever.kinefab");

@@ -1,3 +1,4 @@
+using System;
 using System.Collections.Generic;
 using System.Linq;
 using Kinefab.Document;
@@ -25,15 +26,17 @@ public sealed class MobilityConstraint : Constraint
         Mechanism mechanism = Tested.Mechanism(actual);
         MobilityReport report = MobilityAnalysis.Of(mechanism);
         bool isSuccess = report.Mobility == _freedoms;
-        return new MechanismResult(this, actual, isSuccess, $"mobility {report.Mobility}, {report.Redundant} redundant rows", isSuccess ? null : Lines(mechanism, report));
+        return new MechanismResult(this, actual, isSuccess, $"mobility {report.Mobility}, {Counted(report.Redundant, "redundant row")}", isSuccess ? null : Lines(mechanism, report));
     }
 
     private static List<string> Lines(Mechanism mechanism, MobilityReport report)
     {
         IReadOnlyList<GameObject> objects = mechanism.Scene.Document.GameObjects;
         List<string> lines = report.Islands.Select(island =>
-            $"mobility {island.Mobility}, {island.Loops} loops: {string.Join(", ", island.GameObjects.Select(i => objects[i].Id))}").ToList();
-        lines.AddRange(report.Bodies.Select(body => $"{objects[body.GameObject].Id}: {body.Translations} translations, {body.Rotations} rotations"));
+            $"mobility {island.Mobility}, {Counted(island.Loops, "loop")}: {string.Join(", ", island.GameObjects.Select(i => objects[i].Id))}").ToList();
+        lines.AddRange(report.Bodies.Select(body => $"{objects[body.GameObject].Id}: {Counted(body.Translations, "translation")}, {Counted(body.Rotations, "rotation")}"));
         return lines;
     }
+
+    private static string Counted(int count, string noun) => FormattableString.Invariant($"{count} {noun}{(count == 1 ? "" : "s")}");
 }

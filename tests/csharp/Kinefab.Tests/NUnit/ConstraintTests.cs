@@ -71,7 +71,7 @@ public sealed class ConstraintTests
 
     [Test]
     public void Mobility_Another_SaysWhatEachBodyCanDo() => Assert.That(
-        Failure(Lever, SceneConstraints.Mobility(2)), Does.Contain("Expected: mobility 2").And.Contain("But was:  mobility 1").And.Contain("Lever/BarC:1: "));
+        Failure(Lever, SceneConstraints.Mobility(2)), Does.Contain("Expected: mobility 2").And.Contain("But was:  mobility 1").And.Contain("Lever/BarC:1: 0 translations, 1 rotation\n"));
 
     [Test]
     public void Drives_RoundAndBack_MovesTheSlideByTwiceTheRadius()

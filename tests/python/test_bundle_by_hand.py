@@ -77,6 +77,16 @@ def test_init_takes_unit_and_up_axis_of_gltf_from_its_definition(tmp_path):
     assert np.ptp(mesh.vertices, axis=0)[1].round(7) == 0.02
 
 
+def test_init_into_another_folder_says_which_folder_it_is(tmp_path, monkeypatch):
+    """Also where the bundle's name has none: the meshes are not below the folder that one stands in."""
+    box(tmp_path / "parts" / "Base.stl", 10, 20, 30)
+    (tmp_path / "here").mkdir()
+    monkeypatch.chdir(tmp_path / "here")
+    done = run("bundle", "init", tmp_path / "parts", "--units", "mm", "-o", "m.bundle.json")
+    assert done.exit_code == 1
+    assert f"Base.stl does not lie below the folder of the bundle, {tmp_path / 'here'}." in done.output
+
+
 def test_init_asks_for_the_up_axis_of_gltf_among_others(tmp_path):
     box(tmp_path / "a.glb", 1, 1, 1)
     box(tmp_path / "b.stl", 1, 1, 1)

@@ -6,7 +6,6 @@ JSON has no comments; they stand in ``extras``, which readers keep and never int
 from __future__ import annotations
 
 import json
-import os
 from collections.abc import Sequence
 from pathlib import Path
 
@@ -137,7 +136,7 @@ def _relative(file: Path, target: Path) -> str:
         return file.resolve().relative_to(target.parent.resolve()).as_posix()
     except ValueError:
         raise _no_beginning(
-            f"{file} is not below {os.fspath(target.parent) or '.'}",
+            f"{file} does not lie below the folder of the bundle, {target.parent.resolve()}",
             "Write the bundle beside the meshes or above them.",
         ) from None
 

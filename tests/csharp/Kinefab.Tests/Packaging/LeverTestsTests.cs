@@ -40,6 +40,12 @@ public sealed class LeverTestsTests
         Assert.That(readme.ReadLine(), Is.EqualTo(package == "Kinefab.Cli" ? "# dotnet kinefab" : $"# {package}"), "each has a page of its own");
     }
 
+    [TestCase("Kinefab")]
+    [TestCase("Kinefab.NUnit")]
+    [TestCase("Kinefab.Cli")]
+    public void Package_BeingPacked_IsNotAnalysedAgain(string package) =>
+        Assert.That(PackageFeed.Run("dotnet", PackageFeed.Source($"src/{package}"), "msbuild", "-getProperty:RunAnalyzers", "-p:_IsPacking=true").Output.Trim(), Is.EqualTo("false"));
+
     [Test]
     public void Tool_PackedForThisPlatform_IsMachineCodeAndRuns()
     {

@@ -42,6 +42,9 @@ public static class DiagnosticCodes
     /// <summary>The binary scene file is of version {version}; this library reads version 1.</summary>
     public const string ContainerVersionUnsupported = "CONTAINER_VERSION_UNSUPPORTED";
 
+    /// <summary>The file has nothing of what every scene has: format, version, gameObjects.</summary>
+    public const string FormatMissing = "FORMAT_MISSING";
+
     /// <summary>The format is "{format}", not "kinefab.scene".</summary>
     public const string FormatUnknown = "FORMAT_UNKNOWN";
 

@@ -18,6 +18,7 @@ internal ref partial struct JsonCursor
     private readonly int maxItems;
     private readonly ReadingProgress progress;
     private readonly SharedValues shared;
+    private readonly long textStart;
     private Utf8Tokenizer reader;
 
     /// <summary>Start of the object whose <c>type</c> was read ahead of its other fields, or -1.</summary>
@@ -35,6 +36,7 @@ internal ref partial struct JsonCursor
         reader = new Utf8Tokenizer(text, maxDepth);
         typedStart = -1;
         reader.Read();
+        textStart = reader.TokenStart;
     }
 
     /// <summary>A value of an array, made from the cursor.</summary>
@@ -95,10 +97,12 @@ internal ref partial struct JsonCursor
     internal readonly void Report(string code, params (string Name, string Value)[] values) => findings.AddAt(Offset, code, values);
 
     /// <summary>Reports about the current token, drops all other findings and ends the reading.</summary>
-    internal readonly void ReportAlone(string code, params (string Name, string Value)[] values)
+    internal readonly void ReportAlone(string code, params (string Name, string Value)[] values) => ReportAlone(Offset, code, values);
+
+    private readonly void ReportAlone(long offset, string code, params (string Name, string Value)[] values)
     {
         findings.Clear();
-        Report(code, values);
+        findings.AddAt(offset, code, values);
         throw new ReadingEndedException();
     }
 
@@ -115,6 +119,8 @@ internal ref partial struct JsonCursor
     private readonly void ReportMissing(in FieldCursor fields)
     {
         FieldNames names = fields.Names!;
+        if (fields.Start == textStart && (names.Required & fields.Seen) == 0)
+            ReportAlone(fields.Start, DiagnosticCodes.FormatMissing); // another format's file: what else is amiss in it means nothing
         for (int i = 0; i < names.Count; i++)
         {
             if ((names.Required & ~fields.Seen & (1UL << i)) != 0)

@@ -20,6 +20,8 @@ from .shape import check_shape
 
 FORMAT = "kinefab.scene"
 MAJOR = "1"
+EVERY = ("format", "version", "gameObjects")
+"""Fields of every scene; what has none of them is another format's file."""
 INDICES = (("mesh", "meshes"), ("material", "physicsMaterials"))
 """Fields of mesh filters and colliders, and what they are indices of."""
 _VERSION = re.compile(r"(0|[1-9][0-9]*)\.(0|[1-9][0-9]*)", re.ASCII)
@@ -65,6 +67,9 @@ def check_contents(scene: Entry, buffers: Sequence[bytes], found: Findings) -> N
 def _demand_known(document: Any, found: Findings) -> None:
     """Of another format or a later version nothing else is told: it may mean another thing there."""
     entry: Any = document if isinstance(document, dict) else {}
+    if isinstance(document, dict) and entry.keys().isdisjoint(EVERY):
+        found.add("FORMAT_MISSING", "")
+        found.refuse()
     version = entry.get("version", "")
     known = _VERSION.fullmatch(version) if isinstance(version, str) else None
     if entry.get("format", FORMAT) != FORMAT:

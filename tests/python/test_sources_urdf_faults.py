@@ -540,3 +540,14 @@ def test_no_mutation_of_a_file_is_a_traceback(tmp_path, fuzz_count):
             refused += 1
             assert error.diagnostics
     assert 0 < refused < fuzz_count
+
+
+def test_a_chain_of_massless_links_does_not_get_lighter_and_lighter(tmp_path):
+    """Each weighs a tenth of the nearest link that states a mass, of 1 kg where none does; not of the stand-in before it."""
+    links = A + "".join(f"<link name='l{i}'/>\n" for i in range(30))
+    names = ["a", *(f"l{i}" for i in range(30))]
+    joints = [joint(name=f"j{i}", parent=p, child=c) for i, (p, c) in enumerate(zip(names, names[1:]))]
+    scene = read(written(tmp_path, robot(links + "".join(joints))), Report())
+    assert {node.mass.mass for node in scene.nodes if node.name.startswith("l")} == {0.2}
+    scene = read(written(tmp_path, robot((links + "".join(joints)).replace(A, "<link name='a'/>"))), Report())
+    assert {node.mass.mass for node in scene.nodes if node.name.startswith("l")} == {0.1}

@@ -117,9 +117,9 @@ def add_links(
         helped = links[group].helps
         if helped is not None:
             scene.nodes[node] = replace(scene.nodes[node], helps=node_of[groups[helped]])
-    for index in light:
-        beside = [scene.nodes[node_of[g]].mass for g in neighbours.get(group_of[index], ())]
-        _stand_in(scene, index, [m.mass for m in beside if m is not None], report)
+    beside = {node: [node_of[g] for g in neighbours.get(group, ())] for node, group in group_of.items()}
+    for index, mass in _nearest_masses(scene, light, beside).items():
+        _stand_in(scene, index, mass, report)
     return [carrier for carrier in carriers if carrier is not None]
 
 
@@ -238,10 +238,32 @@ def _times(solid: MassProperties, factor: float) -> MassProperties:
     return MassProperties(factor * solid.mass, solid.center, factor * solid.inertia)
 
 
-def _stand_in(scene: Scene, index: int, beside: Sequence[float], report: Report) -> None:
-    """Give a node without mass and shape a light one: a body cannot be without."""
+def _nearest_masses(
+    scene: Scene, light: Sequence[int], beside: Mapping[int, Sequence[int]]
+) -> dict[int, float]:
+    """Of each light node the mass of the nearest that is weighed, of several as near the least; 1 kg where there is none.
+
+    Never that of another light one: in a chain each would be a tenth of the one before, the thirtieth 1e-29 kg.
+    """
+    found = dict.fromkeys(light, 1.0)
+    ring = {i: node.mass.mass for i, node in enumerate(scene.nodes) if node.mass is not None}
+    open_ones = set(light)
+    while ring and open_ones:
+        further: dict[int, float] = {}
+        for node, mass in ring.items():
+            for other in beside.get(node, ()):
+                if other in open_ones:
+                    further[other] = min(mass, further.get(other, mass))
+        open_ones -= further.keys()
+        found |= further
+        ring = further
+    return found
+
+
+def _stand_in(scene: Scene, index: int, beside: float, report: Report) -> None:
+    """Give a node without mass and shape a light one, a share of what is ``beside`` it: a body cannot be without."""
     node = scene.nodes[index]
-    mass = STAND_IN_SHARE * min(beside, default=1.0)
+    mass = STAND_IN_SHARE * beside
     weight = MassProperties(mass, np.zeros(3), 0.4 * mass * STAND_IN_RADIUS**2 * np.eye(3))
     scene.nodes[index] = replace(node, mass=weight)
     report.approximated(f"mass {node.name}", "MASS_STAND_IN", node.where, link=node.name, mass=f"{mass:g}")

@@ -94,6 +94,46 @@ internal sealed class SpringLawTests
         Assert.That((m.Bodies.Poses[0].Rotation * goal.Conjugate()).Vector.Length, Is.LessThanOrEqualTo(1e-7));
     }
 
+    [TestCase(0, false)]
+    [TestCase(0, true)]
+    [TestCase(1, false)]
+    [TestCase(1, true)]
+    public void TwistAndSwingDrives_WithoutDamper_KeepTheirEnergy(int axis, bool isBall)
+    {
+        const double k = 100, way = 1.5, dt = 0.02;
+        const int span = 100;
+        var b = new MechanismBuilder { Gravity = Vector3d.Zero };
+        int body = b.Body(Vector3d.Zero, Quaterniond.Identity, 1, new Vector3d(1, 1, 1));
+        var drive = new DriveModel { Stiffness = k, ForceLimit = double.PositiveInfinity };
+        b.Add(
+            new D6Joint
+            {
+                Twist = isBall || axis == 0 ? AxisMotion.Free : AxisMotion.Locked,
+                Swing1 = isBall || axis == 1 ? AxisMotion.Free : AxisMotion.Locked,
+                Swing2 = isBall ? AxisMotion.Free : AxisMotion.Locked,
+                DrivePose = new Pose(Vector3d.Zero, Quaterniond.AxisAngle(axis == 0 ? Vector3d.UnitX : Vector3d.UnitY, way)),
+                DriveTwist = drive, DriveSwing = drive,
+            },
+            JointModel.World,
+            body,
+            Pose.Identity);
+        MultibodySystem m = b.Build();
+
+        // Torques 2 k sin(left / 2) and k sin(left).
+        double held = axis == 0 ? 4 * k * (1 - Math.Cos(way / 2)) : k * (1 - Math.Cos(way));
+        for (int i = 0; i < 5; i++)
+        {
+            double most = 0;
+            for (int step = 0; step < span; step++)
+            {
+                Run(m, dt, dt);
+                most = Math.Max(most, MechanismMeasures.Kinetic(m));
+            }
+
+            Assert.That(most, Is.InRange(0.99 * held, 1.001 * held), $"after {(i + 1) * span} steps");
+        }
+    }
+
     [TestCase(0.3)]
     [TestCase(0.6)]
     [TestCase(0.9)]

@@ -30,7 +30,7 @@ internal sealed partial class ActiveSet<V>
                     RowKind.Limit => scalar.End.GeometricError - scalar.Limit.Allowed,
                     RowKind.Motion => scalar.End.GeometricError - scalar.EndError,
                     RowKind.SpeedMotor => h * (DriftSpeed(scalar) - scalar.Built.VelocityTarget),
-                    _ => h * (DriftSpeed(scalar) + (scalar.ImpulseFirstHalf / scalar.Theta - scalar.Spring.Law.RestImpulse) / scalar.Spring.Law.ImplicitDamping),
+                    _ => h * (SpringSpeed(scalar) + (scalar.ImpulseFirstHalf / scalar.Theta - scalar.Spring.Law.RestImpulse) / scalar.Spring.Law.ImplicitDamping),
                 };
             }
 
@@ -277,7 +277,7 @@ internal sealed partial class ActiveSet<V>
                 double ahead = scalar.End.GeometricError - scalar.EndError;
                 return (scalar.ImpulseFirstHalf >= high && ahead > tolerance) || (scalar.ImpulseFirstHalf <= low && ahead < -tolerance);
             default:
-                double wanted = scalar.Spring.Law.RestImpulse - scalar.Spring.Law.ImplicitDamping * DriftSpeed(scalar);
+                double wanted = scalar.Spring.Law.RestImpulse - scalar.Spring.Law.ImplicitDamping * SpringSpeed(scalar);
                 double slack = scalar.Spring.Law.ImplicitDamping * tolerance;
                 return (scalar.ImpulseFirstHalf >= high && wanted < scalar.High - slack) || (scalar.ImpulseFirstHalf <= low && wanted > scalar.Low + slack);
         }

@@ -130,5 +130,9 @@ internal sealed partial class ActiveSet<V>
     // drives, whose C is a sine of the angle by which the row turns, so that a force at its limit works by more than C says.
     private bool HasPotential(in ScalarRow scalar) =>
         scalar.Built.Hint == SolveHint.SlerpSpring ? ((D6Joint)_batch.Models[scalar.Block]!).DriveAngularVelocity == Vector3d.Zero
-        : scalar.Built.VelocityTarget == 0 && (!scalar.Built.Has(RowFlags.Angular | RowFlags.Drive) || _batch.Models[scalar.Block] is RevoluteJoint);
+        : scalar.Built.VelocityTarget == 0 && !IsSine(scalar);
+
+    // The springs of a D6's twist and swing.
+    private bool IsSine(in ScalarRow scalar) =>
+        scalar.Built.Has(RowFlags.Angular | RowFlags.Drive) && scalar.Built.Hint != SolveHint.SlerpSpring && _batch.Models[scalar.Block] is not RevoluteJoint;
 }

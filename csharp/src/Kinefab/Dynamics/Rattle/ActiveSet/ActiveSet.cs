@@ -105,7 +105,7 @@ internal sealed partial class ActiveSet<V>
 
             if (scalar.Kind == RowKind.Spring)
             {
-                scalar.SetSpring(h, response, isImplicit);
+                scalar.SetSpring(h, response, isImplicit, IsSine(scalar));
                 _batch.VelocityImpulses[scalar.Index] = GuessOf(scalar);
             }
             else
@@ -368,6 +368,16 @@ internal sealed partial class ActiveSet<V>
     private double StartSpeed(in ScalarRow scalar) => Impulses<V>.Speed(_batch, scalar.Block, scalar.Built);
 
     private double DriftSpeed(in ScalarRow scalar) => Impulses<V>.DriftSpeed(_batch, scalar.Block, scalar.Built, scalar.End);
+
+    // That at which a spring's law gives the force of the mean C of the drift's ends: of C a sine, the row's own speed would have it lag behind, which is a
+    // damper of first order. Where C leaps by a whole turn the row's own speed counts.
+    private double SpringSpeed(in ScalarRow scalar)
+    {
+        const double mostChange = 1;
+        double speed = DriftSpeed(scalar);
+        double change = scalar.End.GeometricError - scalar.StartError;
+        return scalar.Spring.EndShare > 0 && scalar.HasEnd && Math.Abs(change) < mostChange ? speed + scalar.Spring.EndShare * (change / scalar.Spring.EndStep - speed) : speed;
+    }
 
     private double Response(in ScalarRow scalar) => Impulses<V>.ResponseOf(_batch, scalar.Block, scalar.Built);
 }

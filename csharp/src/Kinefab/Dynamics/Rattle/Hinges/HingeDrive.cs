@@ -7,7 +7,7 @@ namespace Kinefab.Dynamics.Rattle;
 /// <summary>The drive of a hinge as a row about its axis x, of either kind of joint, where its turn is <see cref="JointModel.LastTwist"/>.</summary>
 internal readonly struct HingeDrive
 {
-    /// <summary>Whether it is a spring or a motor; else a prescribed motion, which is none of both.</summary>
+    /// <summary>Whether it is a motor or a spring whose C is the turn that is left; else a prescribed motion, or a spring that pulls by a sine.</summary>
     public bool IsLinear { get; private init; }
 
     public bool IsSpring { get; private init; }
@@ -34,7 +34,9 @@ internal readonly struct HingeDrive
         }
 
         var d6 = (D6Joint)joint;
-        return OfSpring(d6.DriveTwist, double.IsNaN(d6.DriveTwistAngle) ? ToGoal(d6) : d6.DriveTwistAngle - d6.LastTwist, d6.DriveAngularVelocity.X);
+        return double.IsNaN(d6.DriveTwistAngle)
+            ? OfSpring(d6.DriveTwist, ToGoal(d6), d6.DriveAngularVelocity.X, d6.DriveTwist.Stiffness > 0)
+            : OfSpring(d6.DriveTwist, d6.DriveTwistAngle - d6.LastTwist, d6.DriveAngularVelocity.X);
     }
 
     // RevoluteJoint's row is about -x.
@@ -46,9 +48,9 @@ internal readonly struct HingeDrive
         Maximum = hinge.MotorFreeSpin && hinge.MotorVelocity > 0 ? 0 : hinge.MotorForceLimit,
     };
 
-    private static HingeDrive OfSpring(in DriveModel gains, double error, double velocityTarget) => new()
+    private static HingeDrive OfSpring(in DriveModel gains, double error, double velocityTarget, bool isSine = false) => new()
     {
-        IsLinear = gains.Prescribes != Prescribed.Position,
+        IsLinear = gains.Prescribes != Prescribed.Position && !(isSine && gains.Prescribes == Prescribed.Nothing),
         IsSpring = gains.Prescribes != Prescribed.Speed,
         Gains = gains,
         Error = error,

@@ -6,6 +6,15 @@ internal struct ImplicitSpring
     public SpringLaw Law;
 
     /// <summary>
+    /// Of a spring whose C does not change as its row moves, a sine of an angle, that the step can follow: what of the law's implicit damping is its
+    /// stiffness', which follows the C of the drift's two ends; else 0.
+    /// </summary>
+    public double EndShare;
+
+    /// <summary>Length of the drift in which it does, s.</summary>
+    public double EndStep;
+
+    /// <summary>
     /// The speed at which a spring that the step is too long to follow holds itself, see <see cref="StiffSpringCorrection"/>, by the impulse that it gave at
     /// it; NaN where it holds none, as at its limit.
     /// </summary>

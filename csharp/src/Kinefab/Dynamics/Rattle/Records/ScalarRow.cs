@@ -233,11 +233,14 @@ internal struct ScalarRow
     /// <param name="h">Step, s.</param>
     /// <param name="response">J M^-1 J^T, 1/kg or 1/(kg m^2).</param>
     /// <param name="isImplicit">Whether the whole impulse acts before the drift (implicit Euler).</param>
-    public void SetSpring(double h, double response, bool isImplicit)
+    /// <param name="isSine">Whether C is a sine of the angle by which the row turns.</param>
+    public void SetSpring(double h, double response, bool isImplicit, bool isSine)
     {
         var gains = new DriveModel { Stiffness = Built.Stiffness, Damping = Built.Damping, IsAcceleration = Built.Has(RowFlags.AccelerationSpring) };
         Spring.Law = new SpringLaw(gains, Built.VelocityTarget, StartError, h, response, isImplicit);
         Theta = Spring.Law.Theta;
+        Spring.EndShare = isSine && Theta == 0.5 && Spring.Law.ImplicitDamping > 0 ? 1 - h * Spring.Law.Damping / Spring.Law.ImplicitDamping : 0;
+        Spring.EndStep = h;
     }
 }
 

@@ -26,12 +26,16 @@ internal readonly struct SpringLaw
         CorrectionGain = isImplicit || z <= 1 ? 0 : (z * z - 1) / response;
         ImplicitDamping = h * (d + Theta * h * k);
         RestImpulse = h * (d * velocityTarget - k * error);
+        Damping = d;
     }
 
     public double Theta { get; }
 
     /// <summary>What the impulse falls by for each unit of speed, kg or kg m^2.</summary>
     public double ImplicitDamping { get; }
+
+    /// <summary>d, of an acceleration spring too, N s/m or N m s/rad.</summary>
+    public double Damping { get; }
 
     /// <summary>Impulse at v = 0, N s or N m s.</summary>
     public double RestImpulse { get; }

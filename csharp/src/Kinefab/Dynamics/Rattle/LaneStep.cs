@@ -212,11 +212,12 @@ internal sealed class LaneStep<V>
 
         double gain = Batch.Work.Gain[lane];
         double moving = Batch.Work.Moving[lane];
-        bool mayLose = Batch.Shape.HasKinematic || CompliantAngles<V>.HaveActed(Batch, lane, moving) || (Batch.Axes != null && Batch.Axes.HasRow(lane));
+        bool isLed = LaneEnergy<V>.IsLed(Batch, lane);
+        bool mayLose = isLed || CompliantAngles<V>.HaveActed(Batch, lane, moving) || (Batch.Axes != null && Batch.Axes.HasRow(lane));
         if (ledger.Allows(gain, moving, mayLose))
         {
             // Where J v is not 0, no factor on all speeds may change them.
-            if (!Batch.Shape.HasKinematic && (Batch.Axes == null || !Batch.Axes.HasMotor(lane)))
+            if (!isLed && (Batch.Axes == null || !Batch.Axes.HasMotor(lane)))
             {
                 double takeable = LaneEnergy<V>.Takeable(Batch, lane, Batch.Work.Kinetic[lane], out CommonMotion common);
                 LaneEnergy<V>.Take(Batch, lane, ledger.Enter(gain, moving, takeable, mayLose), takeable, common);

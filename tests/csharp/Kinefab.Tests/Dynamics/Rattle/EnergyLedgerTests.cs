@@ -1,6 +1,8 @@
 using System;
 using Kinefab.Dynamics;
 using Kinefab.Dynamics.Rattle;
+using Kinefab.Joints;
+using Kinefab.Numerics;
 using NUnit.Framework;
 
 namespace Kinefab.Tests.Dynamics.Rattle;
@@ -113,5 +115,36 @@ internal sealed class EnergyLedgerTests
             largest = Math.Max(largest, MechanismMeasures.Kinetic(m));
             Assert.That((MechanismMeasures.Energy(m) - start) / largest, Is.InRange(-1e-2, 1e-3), $"step {i}");
         }
+    }
+
+    /// <summary>As the Ground of an exported scene, which is a kinematic body.</summary>
+    [TestCase(false)]
+    [TestCase(true)]
+    public void Step_OnAKinematicBodyThatStands_KeepsEnergyAsOnTheWorld(bool isWorld)
+    {
+        const double dt = 1.0 / 60;
+        var b = new MechanismBuilder();
+        Quaterniond turn = Quaterniond.AxisAngle(new Vector3d(1, 2, 3).Normalized(), 1.1);
+        int ground = b.Body(new Vector3d(0.3, 0.2, 0.1), turn, 1, new Vector3d(1, 1, 1));
+        b.Change(ground, body => body with { IsKinematic = true });
+        int fixedTo = isWorld ? JointModel.World : ground;
+
+        // Both stand, nearly, over their hinges.
+        int small = b.Body(new Vector3d(0.0015, 0.015, 0), Quaterniond.Identity, 0.0035, new Vector3d(1e-7, 1.5e-7, 1.6e-7));
+        int large = b.Body(new Vector3d(0.1, 0.02, 0), Quaterniond.Identity, 0.017, new Vector3d(1.3e-6, 3.7e-6, 3e-6));
+        RevoluteJoint first = b.Hinge(fixedTo, small, Vector3d.Zero, Vector3d.UnitZ);
+        RevoluteJoint second = b.Hinge(fixedTo, large, new Vector3d(0.1, 0, 0), Vector3d.UnitZ);
+        b.Couple(second, (first, -1.45));
+        MultibodySystem m = b.Build();
+        var solver = new RattleSolver(m);
+        double start = Energy(), most = 0;
+        for (int i = 0; i < 300; i++)
+        {
+            solver.Step(dt);
+            most = Math.Max(most, MechanismMeasures.Kinetic(m));
+            Assert.That(Energy() - start, Is.LessThanOrEqualTo(1e-3 * (most + MechanismMeasures.FallEnergy(m, 2 * dt))), $"step {i}");
+        }
+
+        double Energy() => MechanismMeasures.Kinetic(m) + MechanismMeasures.Potential(m);
     }
 }

@@ -83,6 +83,21 @@ internal static class LaneEnergy<V>
         return isKnown;
     }
 
+    /// <summary>Whether a kinematic body of a lane's island moves in the step: one that stands gives no more than the world does.</summary>
+    public static bool IsLed(LaneRecords<V> batch, int lane)
+    {
+        Island shape = batch.Shape;
+        bool isLed = false;
+        for (int body = shape.MovingBodies; body < shape.Bodies.Length && shape.HasKinematic && !isLed; body++)
+        {
+            int o = LaneRecords<V>.Body(body, 0) + lane;
+            isLed = !shape.IsStatic[body] && (LaneTransfer<V>.ReadVector(batch.Bodies, o + BodyLanes.V * Lane<V>.Width) != Vector3d.Zero
+                || LaneTransfer<V>.ReadVector(batch.Bodies, o + BodyLanes.W * Lane<V>.Width) != Vector3d.Zero);
+        }
+
+        return isLed;
+    }
+
     /// <summary>What energy may be taken of, J: all that moves, or of an island that hangs on nothing what it has beyond its <see cref="CommonMotion"/>.</summary>
     /// <param name="batch">Built at the end pose.</param>
     /// <param name="lane">The island's.</param>

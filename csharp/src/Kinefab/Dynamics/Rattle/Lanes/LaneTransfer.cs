@@ -317,7 +317,9 @@ internal static class LaneTransfer<V>
         Write(a, o + BodyLanes.X * w, pose.Position);
         Write(a, o + BodyLanes.Q * w, pose.Rotation);
         Write(a, o + BodyLanes.V * w, bodies.LinearVelocities[body]);
-        Write(a, o + BodyLanes.W * w, bodies.AngularVelocities[body]);
+
+        // Where it stands, the product of the two rotations leaves it a speed of rounding.
+        Write(a, o + BodyLanes.W * w, bodies.KinematicTargets[body].Rotation == pose.Rotation ? Vector3d.Zero : bodies.AngularVelocities[body]);
     }
 
     [MethodImpl(MethodImplOptions.NoInlining)]

@@ -216,6 +216,39 @@ public sealed class WorldDriveTests
         Assert.That((world.Stops, world.Findings.Diagnostics.Count), Is.EqualTo((0, 0)));
     }
 
+    /// <summary>A damper that still wants the speed of before would hold the spring a tenth of a second of it beyond the goal: here 6 degrees, or 10 mm.</summary>
+    [Test]
+    public void DriveTo_AfterDriveAt_ReachesTheGoal([Values] SolverKind solver, [Values(Coordinate.X, Coordinate.AngularX, Coordinate.AngularY)] Coordinate coordinate)
+    {
+        World world = SmallScene.Create(Only(coordinate, swap: true), solver: solver);
+        double unit = coordinate == Coordinate.X ? 1e-3 : 1;
+
+        world.Joints[0].DriveAt(coordinate, 60 * unit);
+        SmallScene.Run(world, 1);
+        world.Joints[0].DriveTo(coordinate, 30 * unit);
+        SmallScene.Run(world, 4);
+
+        Assert.That(world.Joints[0].Coordinate(coordinate), Is.EqualTo(30 * unit).Within(1e-3 * unit));
+    }
+
+    [Test]
+    public void DriveTo_AfterDriveAt_HasTheComponentsOwnSpring([Values] SolverKind solver)
+    {
+        ConfigurableJoint joint = Only(Coordinate.X, swap: false) with { XDrive = new JointDrive { PositionSpring = 100, PositionDamper = 20 } };
+        World world = SmallScene.Create(joint, solver: solver);
+
+        world.Joints[0].DriveAt(Coordinate.X, 0.1);
+        world.Step(SmallScene.Dt);
+        world.Joints[0].DriveTo(Coordinate.X, 0.05);
+        for (int i = 0; i < 500; i++)
+        {
+            world.Bodies[0].AddForce(SmallScene.OwnPose.Rotation * Vector3d.UnitX);
+            world.Step(SmallScene.Dt);
+        }
+
+        Assert.That(world.Joints[0].Coordinate(Coordinate.X), Is.EqualTo(0.05 + 1.0 / 100).Within(1e-6));
+    }
+
     [Test]
     public void DriveTo_CoordinateOfAnotherKind_Throws()
     {

@@ -154,6 +154,24 @@ public sealed class WorldLinkTests
 
     [TestCase(SolverKind.Unity)]
     [TestCase(SolverKind.Exact)]
+    public void DriveTo_OfALinkAfterDriveAt_HasItsOwnSpring(SolverKind solver)
+    {
+        var drive = new ArticulationDrive { Stiffness = 100, Damping = 20 };
+        World world = LinkScene.World(solver, LinkScene.Link(Revolute, drive) with { UseGravity = false });
+        var joint = (WorldLinkJoint)world.Joints[0];
+        joint.DriveAt(Coordinate.AngularX, 60);
+        world.Run(0.1);
+        joint.DriveTo(Coordinate.AngularX, 30);
+        world.Run(10, until: _ =>
+        {
+            joint.AddForce(Coordinate.AngularX, 10);
+            return false;
+        });
+        Assert.That(world["L1"], Is.EqualTo(30 + 10.0 / 100 * 180 / Math.PI).Within(1e-3));
+    }
+
+    [TestCase(SolverKind.Unity)]
+    [TestCase(SolverKind.Exact)]
     public void Pose_OfTheRoot_TakesTheArticulationAlong(SolverKind solver)
     {
         World world = LinkScene.World(solver, LinkScene.Link(Revolute) with { UseGravity = false });

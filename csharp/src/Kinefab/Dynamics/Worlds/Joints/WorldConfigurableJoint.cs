@@ -93,8 +93,8 @@ public sealed class WorldConfigurableJoint : WorldJoint
         int i = Axis(coordinate);
         Finite.OrThrow(target, nameof(target));
         var joint = (D6Joint)Solved;
-        ref Kinefab.Joints.DriveModel drive = ref ConfigurableDrives.Of(joint, i);
-        drive = PositionDrive(drive);
+        ConfigurableDrives.Of(joint, i) = PositionDrive(OwnDrive(i));
+        ConfigurableDrives.SetSpeed(joint, i, 0);
         double goal = _sign * ((IsAngle(i) ? target / Degrees : target) + _start[i]);
         if (IsAngle(i))
         {
@@ -116,14 +116,14 @@ public sealed class WorldConfigurableJoint : WorldJoint
         int i = Axis(coordinate);
         Finite.OrThrow(speed, nameof(speed));
         var joint = (D6Joint)Solved;
-        ref Kinefab.Joints.DriveModel drive = ref ConfigurableDrives.Of(joint, i);
         if (IsAngle(i))
         {
             _turningGoals[i - FirstAngle] = double.NaN;
         }
 
-        double limit = drive.IsActive ? drive.ForceLimit : double.PositiveInfinity;
-        drive = new Kinefab.Joints.DriveModel { Damping = damping, ForceLimit = limit, IsAcceleration = true, Prescribes = Kinefab.Joints.Prescribed.Speed };
+        Kinefab.Joints.DriveModel own = OwnDrive(i);
+        double limit = own.IsActive ? own.ForceLimit : double.PositiveInfinity;
+        ConfigurableDrives.Of(joint, i) = new Kinefab.Joints.DriveModel { Damping = damping, ForceLimit = limit, IsAcceleration = true, Prescribes = Kinefab.Joints.Prescribed.Speed };
         ConfigurableDrives.SetSpeed(joint, i, _sign * (IsAngle(i) ? speed / Degrees : speed));
     }
 
@@ -199,6 +199,14 @@ public sealed class WorldConfigurableJoint : WorldJoint
     private static int Axis(Coordinate coordinate) => coordinate >= Document.Coordinate.X && coordinate <= Document.Coordinate.AngularZ
         ? coordinate - Document.Coordinate.X
         : throw new ArgumentException("A ConfigurableJoint has the coordinates x to angularZ.", nameof(coordinate));
+
+    // The component's, whatever has driven the axis since.
+    private Kinefab.Joints.DriveModel OwnDrive(int axis)
+    {
+        var own = (D6Joint)Solved.Between(Solved.Body0, Solved.Body1);
+        UnityJoints.Apply(_settings, own);
+        return ConfigurableDrives.Of(own, axis);
+    }
 
     private double Raw(int axis, double near) => Evaluate(axis, near, out _);
 

@@ -144,7 +144,8 @@ public sealed class WorldLinkJoint : WorldJoint
         int freedom = Freedom(coordinate);
         _joint.DriveTo(coordinate, target);
         ref LinkAxis axis = ref Tree.AxisOfFreedom(LinkIndex, freedom);
-        DriveModel drive = PositionDrive(new DriveModel { Stiffness = axis.Stiffness, Damping = axis.Damping, ForceLimit = axis.ForceLimit, IsAcceleration = axis.IsAcceleration });
+        LinkAxis own = ArticulationModel.Axis(_settings, Tree.AxisOf[freedom]);
+        DriveModel drive = PositionDrive(new DriveModel { Stiffness = own.Stiffness, Damping = own.Damping, ForceLimit = own.ForceLimit, IsAcceleration = own.IsAcceleration });
         (axis.Stiffness, axis.Damping, axis.ForceLimit, axis.IsAcceleration) = (drive.Stiffness, drive.Damping, drive.ForceLimit, drive.IsAcceleration);
         axis.Target = target / Unit;
         axis.TargetSpeed = 0;
@@ -159,7 +160,8 @@ public sealed class WorldLinkJoint : WorldJoint
         _joint.DriveAt(coordinate, speed);
         ref LinkAxis axis = ref Tree.AxisOfFreedom(LinkIndex, freedom);
         (axis.Stiffness, axis.Damping, axis.IsAcceleration) = (0, damping, true);
-        axis.ForceLimit = axis.ForceLimit > 0 ? axis.ForceLimit : double.PositiveInfinity;
+        double limit = ArticulationModel.Axis(_settings, Tree.AxisOf[freedom]).ForceLimit;
+        axis.ForceLimit = limit > 0 ? limit : double.PositiveInfinity;
         axis.TargetSpeed = speed / Unit;
     }
 

@@ -172,6 +172,23 @@ public sealed class WorldLinkTests
 
     [TestCase(SolverKind.Unity)]
     [TestCase(SolverKind.Exact)]
+    public void SetPosition_BeyondHalfATurn_IsWhereItIsCountedFrom(SolverKind solver)
+    {
+        World world = LinkScene.World(solver, LinkScene.Link(Revolute) with { UseGravity = false });
+        var joint = (WorldLinkJoint)world.Joints[0];
+        joint.SetPosition(Coordinate.AngularX, 270);
+        Assert.That(world["L1"], Is.EqualTo(270).Within(1e-9));
+        joint.DriveTo(Coordinate.AngularX, 300);
+        RunResult run = world.Run(4, record: ["L1"]);
+        using (Assert.EnterMultipleScope())
+        {
+            Assert.That(run["L1"][^1], Is.EqualTo(300).Within(1e-3));
+            Assert.That(run["L1"].Min(), Is.EqualTo(270).Within(1e-3), "by the way between");
+        }
+    }
+
+    [TestCase(SolverKind.Unity)]
+    [TestCase(SolverKind.Exact)]
     public void Pose_OfTheRoot_TakesTheArticulationAlong(SolverKind solver)
     {
         World world = LinkScene.World(solver, LinkScene.Link(Revolute) with { UseGravity = false });

@@ -127,12 +127,13 @@ public sealed class WorldConfigurableJoint : WorldJoint
         ConfigurableDrives.SetSpeed(joint, i, _sign * (IsAngle(i) ? speed / Degrees : speed));
     }
 
-    /// <summary>Counts the turns from the pose as it is, within half a turn of zero.</summary>
-    internal void Restart()
+    /// <summary>Counts the turns anew from the pose as it is: about X nearest to an angle, about Y and Z within half a turn of zero.</summary>
+    /// <param name="twist">Radians, in the sense of the coordinate.</param>
+    internal void Restart(double twist)
     {
         for (int i = FirstAngle; i < Axes; i++)
         {
-            _unwrapped[i] = Evaluate(i, 0, out _speeds[i]);
+            _unwrapped[i] = Evaluate(i, i == FirstAngle ? twist : 0, out _speeds[i]);
         }
 
         Solved.LastTwist = _sign * _unwrapped[FirstAngle];

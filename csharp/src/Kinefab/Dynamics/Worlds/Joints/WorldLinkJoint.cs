@@ -89,7 +89,7 @@ public sealed class WorldLinkJoint : WorldJoint
         _articulated.Read(_articulated.ArticulationOf[_body]);
         Tree.Positions[freedom] = value / Unit;
         _articulated.Place(_articulated.ArticulationOf[_body]);
-        _joint.Restart();
+        _joint.Restart(_settings.JointType == ArticulationJointType.Revolute ? value / Unit : 0);
     }
 
     /// <summary>Gives a coordinate a rate.</summary>

@@ -78,6 +78,78 @@ public sealed class MechanismHandsTests
         Assert.That(links.All(link => link.useGravity), Is.True);
     }
 
+    // Unity's joints count metres of the world, wherever and however large the mechanism stands.
+    [TestCase(KinefabPhysics.AsExported)]
+    [TestCase(KinefabPhysics.Joints)]
+    public void Mover_UnderAScaledParent_SendsSlidesAsManyTimesFurther(KinefabPhysics physics)
+    {
+        var parent = new Unity.GameObject("parent");
+        parent.transform.localScale = new Unity.Vector3(3, 3, 3);
+        using var played = new PlayedMechanism(Written(Slides), physics, parent.transform);
+        foreach (KinefabFreedom freedom in played.Component.Freedoms)
+            played.Component.Drive(freedom.FullName, 0.2);
+        played.Frame();
+        Unity.ArticulationBody link = played.Part("link").GetComponent<Unity.ArticulationBody>();
+        if (link != null)
+            Assert.That(link.jointPosition[0], Is.EqualTo(0.6f).Within(1e-6));
+        played.Component.Mover = KinefabMover.JointDrives;
+        if (link != null)
+            Assert.That(link.xDrive.target, Is.EqualTo(0.6f).Within(1e-6));
+        foreach (Unity.ConfigurableJoint joint in played.Root.GetComponentsInChildren<Unity.ConfigurableJoint>())
+            Assert.That(Math.Abs(joint.targetPosition.x), Is.EqualTo(0.6f).Within(1e-6), joint.name);
+        Unity.Object.DestroyImmediate(parent);
+    }
+
+    // A damper that wants the speed of a motor would hold the spring beyond its target.
+    [Test]
+    public void Mover_JointDrives_StandsWhereItIsSentAndGivesSpeedsBack()
+    {
+        using var played = new PlayedMechanism(Written(Slides), KinefabPhysics.AsExported);
+        Unity.ArticulationBody link = played.Part("link").GetComponent<Unity.ArticulationBody>();
+        Unity.ConfigurableJoint joint = played.Part("slide").GetComponent<Unity.ConfigurableJoint>();
+        (Unity.ArticulationDrive Drive, Unity.Vector3 Speed, Unity.Vector3 Turning) before = (link.xDrive, joint.targetVelocity, joint.targetAngularVelocity);
+        Assert.That((Math.Abs(link.xDrive.targetVelocity), joint.targetVelocity.x), Is.EqualTo((0.3f, 0.1f)));
+        played.Component.Mover = KinefabMover.JointDrives;
+        Assert.That((link.xDrive.targetVelocity, joint.targetVelocity.x, joint.targetVelocity.y), Is.EqualTo((0f, 0f, 0.5f)));
+        played.Component.enabled = false;
+        Assert.That((link.xDrive, joint.targetVelocity, joint.targetAngularVelocity), Is.EqualTo(before));
+    }
+
+    [Test]
+    public void Mover_JointDrives_GivesABallAllOfItsDrivesBack()
+    {
+        using var played = new PlayedMechanism(Written(Ball), KinefabPhysics.AsExported);
+        Unity.ArticulationBody link = played.Part("ball").GetComponent<Unity.ArticulationBody>();
+        (Unity.ArticulationDrive, Unity.ArticulationDrive, Unity.ArticulationDrive) before = (link.xDrive, link.yDrive, link.zDrive);
+        played.Component.Mover = KinefabMover.JointDrives;
+        Assert.That(new[] { link.xDrive, link.yDrive, link.zDrive }.Select(drive => drive.stiffness), Is.All.GreaterThan(0));
+        played.Component.enabled = false;
+        Assert.That((link.xDrive, link.yDrive, link.zDrive), Is.EqualTo(before));
+    }
+
+    private const string Slides = """
+        {"format": "kinefab.scene", "version": "1.0", "gameObjects": [
+            {"id": "base", "name": "base", "components": [{"type": "ArticulationBody", "mass": 1, "inertiaTensor": [1, 1, 1], "immovable": true}]},
+            {"id": "link", "name": "link", "parent": 0, "components": [{"type": "ArticulationBody", "mass": 1, "inertiaTensor": [1, 1, 1], "jointType": "Prismatic", "linearLock": "Free", "xDrive": {"damping": 5, "targetVelocity": 0.3}}]},
+            {"id": "frame", "name": "frame", "components": [{"type": "Rigidbody", "isKinematic": true}]},
+            {"id": "slide", "name": "slide", "components": [{"type": "Rigidbody", "mass": 1, "inertiaTensor": [1, 1, 1]},
+                {"type": "ConfigurableJoint", "connectedBody": 2, "xMotion": "Free", "yMotion": "Locked", "zMotion": "Locked", "angularXMotion": "Locked", "angularYMotion": "Locked", "angularZMotion": "Locked",
+                 "xDrive": {"positionDamper": 5}, "targetVelocity": [0.1, 0.5, 0]}]}]}
+        """;
+
+    private const string Ball = """
+        {"format": "kinefab.scene", "version": "1.0", "gameObjects": [
+            {"id": "base", "name": "base", "components": [{"type": "ArticulationBody", "mass": 1, "inertiaTensor": [1, 1, 1], "immovable": true}]},
+            {"id": "ball", "name": "ball", "parent": 0, "components": [{"type": "ArticulationBody", "mass": 1, "inertiaTensor": [1, 1, 1], "jointType": "Spherical", "twistLock": "Free", "swingYLock": "Free", "swingZLock": "Free"}]}]}
+        """;
+
+    private static string Written(string scene)
+    {
+        string path = Path.Combine(TestContext.CurrentContext.WorkDirectory, $"{TestContext.CurrentContext.Test.ID}.kinefab");
+        File.WriteAllText(path, scene);
+        return path;
+    }
+
     [Test]
     public void Gripper_JawsFollowTheSpindle()
     {

@@ -19,9 +19,11 @@ namespace KinefabUnity
 
         private readonly List<Driven> _all = new List<Driven>();
         private readonly List<Action> _back = new List<Action>();
+        private readonly Transform _root;
 
-        public JointTargets(Mechanism mechanism, Transform[] parts, KinefabFreedom[] freedoms)
+        public JointTargets(Mechanism mechanism, Transform root, Transform[] parts, KinefabFreedom[] freedoms)
         {
+            _root = root;
             foreach (KinefabFreedom freedom in freedoms)
             {
                 MechanismCoordinate coordinate = mechanism.Coordinates[freedom.Coordinate];
@@ -64,10 +66,13 @@ namespace KinefabUnity
         /// <summary>Sends every drive to where the state has its freedom.</summary>
         public void Aim(MotionState motion)
         {
+            // Unity's targets are metres of the world.
+            double scale = _root.lossyScale.x;
             for (int i = 0; i < _all.Count; i++)
             {
                 Driven driven = _all[i];
-                double value = motion.State.Coordinate(driven.Index);
+                MechanismCoordinate coordinate = motion.Mechanism.Coordinates[driven.Index];
+                double value = motion.State.Coordinate(driven.Index) * (coordinate.IsAngle ? 1 : scale);
                 if (driven.Link != null)
                 {
                     Aim(driven.Link, driven.Coordinate, value);
@@ -82,7 +87,7 @@ namespace KinefabUnity
                 }
                 else if (driven.Joint is ConfigurableJoint joint)
                 {
-                    Aim(driven, joint, value);
+                    Aim(driven, joint, value, scale);
                     Wake(joint);
                 }
             }
@@ -145,8 +150,20 @@ namespace KinefabUnity
         {
             Vector3 position = joint.targetPosition;
             Quaternion rotation = joint.targetRotation;
+            Vector3 speed = joint.targetVelocity, turning = joint.targetAngularVelocity;
             RotationDriveMode mode = joint.rotationDriveMode;
             JointDrive x = joint.xDrive, y = joint.yDrive, z = joint.zDrive, twist = joint.angularXDrive, swing = joint.angularYZDrive;
+
+            // A damper that still wants a speed would hold the spring beyond its target.
+            if (coordinate > Doc.Coordinate.Z)
+            {
+                joint.targetAngularVelocity = Without(turning, coordinate - Doc.Coordinate.AngularX);
+            }
+            else
+            {
+                joint.targetVelocity = Without(speed, coordinate - Doc.Coordinate.X);
+            }
+
             switch (coordinate)
             {
                 case Doc.Coordinate.X:
@@ -182,6 +199,8 @@ namespace KinefabUnity
 
                 joint.targetPosition = position;
                 joint.targetRotation = rotation;
+                joint.targetVelocity = speed;
+                joint.targetAngularVelocity = turning;
                 joint.rotationDriveMode = mode;
                 joint.xDrive = x;
                 joint.yDrive = y;
@@ -194,7 +213,7 @@ namespace KinefabUnity
         private void Add(int index, Doc.Coordinate coordinate, ArticulationBody link)
         {
             ArticulationDrive x = link.xDrive, y = link.yDrive, z = link.zDrive;
-            _back.Add(() =>
+            _back.Insert(0, () =>
             {
                 if (link != null)
                 {
@@ -235,8 +254,11 @@ namespace KinefabUnity
             return drive;
         }
 
+        private static Vector3 Without(Vector3 speed, int axis) => new Vector3(axis == 0 ? 0 : speed.x, axis == 1 ? 0 : speed.y, axis == 2 ? 0 : speed.z);
+
         private static ArticulationDrive Own(ArticulationDrive drive)
         {
+            drive.targetVelocity = 0;
             if (drive.stiffness > 0 && drive.forceLimit > 0)
             {
                 return drive;
@@ -276,7 +298,7 @@ namespace KinefabUnity
         }
 
         // Unity drives the connected body against the own one, unless they are swapped.
-        private void Aim(Driven driven, ConfigurableJoint joint, double value)
+        private void Aim(Driven driven, ConfigurableJoint joint, double value, double scale)
         {
             double sense = joint.swapBodies ? 1 : -1;
             if (driven.Coordinate > Doc.Coordinate.Z)
@@ -287,7 +309,7 @@ namespace KinefabUnity
             }
 
             Vector3 position = joint.targetPosition;
-            float at = (float)(sense * (value + driven.Zero)); // Unity counts from where the anchors meet
+            float at = (float)(sense * (value + scale * driven.Zero)); // Unity counts from where the anchors meet
             joint.targetPosition = new Vector3(
                 driven.Coordinate == Doc.Coordinate.X ? at : position.x,
                 driven.Coordinate == Doc.Coordinate.Y ? at : position.y,

@@ -109,7 +109,7 @@ namespace KinefabUnity
             }
             else if (mover == KinefabMover.JointDrives)
             {
-                _targets = new JointTargets(_motion.Mechanism, parts, freedoms);
+                _targets = new JointTargets(_motion.Mechanism, transform, parts, freedoms);
                 _targets.Aim(_motion);
             }
 

@@ -14,11 +14,13 @@ namespace KinefabUnity
     /// </summary>
     internal sealed class LinkPositions
     {
+        private readonly Transform _root;
         private readonly MotionState _motion;
         private readonly List<Link> _links = new List<Link>();
 
-        public LinkPositions(Transform[] parts, MotionState motion)
+        public LinkPositions(Transform root, Transform[] parts, MotionState motion)
         {
+            _root = root;
             _motion = motion;
             Mechanism mechanism = motion.Mechanism;
             for (int i = 0; i < mechanism.Coordinates.Count; i++)
@@ -53,6 +55,8 @@ namespace KinefabUnity
 
         public void Step()
         {
+            // Slides stand by metres of the world.
+            double scale = _root.lossyScale.x;
             foreach (Link link in _links)
             {
                 if (link.Body == null || !link.Body.gameObject.activeInHierarchy)
@@ -61,7 +65,7 @@ namespace KinefabUnity
                 }
 
                 double value = _motion.State.Coordinate(link.Coordinate);
-                link.Body.jointPosition = new ArticulationReducedSpace((float)(link.Home + (link.IsAngle ? value * Math.PI / 180 : value)));
+                link.Body.jointPosition = new ArticulationReducedSpace((float)(link.IsAngle ? link.Home + value * Math.PI / 180 : scale * (link.Home + value)));
                 link.Body.jointVelocity = new ArticulationReducedSpace(0f);
             }
         }

@@ -61,7 +61,7 @@ namespace KinefabUnity
             _parts = found.ToArray();
             _gameObjects = Array.ConvertAll(_parts, part => part.GameObject);
             _poses = new Pose[_parts.Length];
-            _links = new LinkPositions(parts, motion);
+            _links = new LinkPositions(root, parts, motion);
             _steppedMoves = motion.Moves;
         }
 

@@ -54,7 +54,7 @@ internal static class RecordFile
                 return Unreadable(path, $"it has {file.Length} bytes; 1 to {MostBytes} are read");
             using JsonDocument document = JsonDocument.Parse(File.ReadAllBytes(path));
             JsonElement root = document.RootElement;
-            if (root.ValueKind != JsonValueKind.Object || !root.TryGetProperty("format", out JsonElement format) || format.ValueKind != JsonValueKind.String || format.GetString() != Format)
+            if (root.ValueKind != JsonValueKind.Object || !root.TryGetProperty("format", out JsonElement format) || format.GetRawText() != $"\"{Format}\"")
                 return Unreadable(path, $"its format is not {Format}");
             if (Text(root, "version") is var version && version != Version)
                 return (null, new Report([Diagnostic.Of(DiagnosticCodes.RecordingVersionUnknown, "/version", ("path", path), ("version", version), ("known", Version))]));

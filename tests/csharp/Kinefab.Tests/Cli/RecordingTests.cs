@@ -89,6 +89,7 @@ public sealed class RecordingTests
     [TestCase("version", "\"2.0\"", "RECORDING_VERSION_UNKNOWN /version: The recording FILE is of version 2.0, this tool knows 1.0.")]
     [TestCase("version", "7", "version is no string")]
     [TestCase("format", "\"kinefab.scene\"", "its format is not kinefab.recording")]
+    [TestCase("format", "3", "its format is not kinefab.recording")]
     [TestCase("scene", "\"abc\"", "scene is not 64 hexadecimal digits")]
     [TestCase("solver", "\"fast\"", "solver is fast; there are unity and exact")]
     [TestCase("step", "-1", "step is no positive number of seconds")]
@@ -109,6 +110,21 @@ public sealed class RecordingTests
 
         Assert.That((exit, data), Is.EqualTo((1, "")));
         Assert.That(findings, Does.Contain(said.Replace("FILE", record, StringComparison.Ordinal)));
+    }
+
+    [TestCase("format", "its format is not kinefab.recording")]
+    [TestCase("version", "version is no text of Unicode")]
+    public void Replay_OfHalfASurrogatePair_IsAFinding(string field, string said)
+    {
+        string record = Record(1);
+        string text = System.IO.File.ReadAllText(record);
+        int value = text.IndexOf('"', text.IndexOf($"\"{field}\": ", StringComparison.Ordinal) + field.Length + 3) + 1;
+        System.IO.File.WriteAllText(record, text.Insert(value, "\\ud800"));
+
+        (int exit, _, string findings) = CommandLineTests.Run("simulate", Scene, "--replay", record);
+
+        Assert.That(exit, Is.EqualTo(1));
+        Assert.That(findings, Does.Contain($"error RECORDING_UNREADABLE: The recording {record} cannot be read: {said}"));
     }
 
     [Test]

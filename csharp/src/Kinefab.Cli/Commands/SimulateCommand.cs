@@ -48,7 +48,7 @@ internal static class SimulateCommand
             string? target = parsed.GetValue(output);
             string? recordTo = parsed.GetValue(record);
             string? replayOf = parsed.GetValue(replay);
-            if ((batch.FaultOfSingle("--output", target) ?? batch.FaultOfSingle("--record", recordTo) ?? batch.FaultOfSingle("--replay", replayOf)) is string fault)
+            if ((batch.FaultOfSingle("--output", target) ?? batch.FaultOfSingle("--record", recordTo) ?? batch.FaultOfSingle("--replay", replayOf) ?? batch.FaultOfTarget("--record", recordTo)) is string fault)
                 return WrongUsage.Refuse(fault);
             var run = new Run(parsed.GetValue(seconds) ?? 0, parsed.GetValue(step), parsed.GetValue(solver), target, parsed.GetValue(drives) ?? [], batch.IsJson)
             {

@@ -25,9 +25,17 @@ internal sealed class SceneBatch(string command, IReadOnlyList<string> files, bo
         return files.Count > 1 ? $"{option} {value}: it takes one scene file, not {files.Count}." : null;
     }
 
+    /// <summary>Why an option cannot write to a path; null: it can.</summary>
+    internal string? FaultOfTarget(string option, string? path) =>
+        !string.IsNullOrEmpty(path) && files.Any(file => file is not ("" or LoadedScene.StandardInput) && Path.GetFullPath(file) == Path.GetFullPath(path))
+            ? $"{option} {path}: it is one of the scene files, and would be lost."
+            : null;
+
     /// <summary>Does something with every file and gives the exit code: the greatest of all.</summary>
     internal int Run(Func<string, SceneOutcome> each)
     {
+        if (FaultOfTarget("--junit", junit) is string fault)
+            return WrongUsage.Refuse(fault);
         Report target = junit is null ? Report.Empty : TargetFile.Check(junit);
         if (target.HasErrors)
             return Fail(target);

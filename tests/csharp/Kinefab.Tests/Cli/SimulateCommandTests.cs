@@ -5,6 +5,7 @@ using System.Linq;
 using System.Text.Json;
 using Kinefab.Dynamics;
 using Kinefab.Numerics;
+using Kinefab.Tests.Conformance;
 using Kinefab.Validation;
 using NUnit.Framework;
 
@@ -77,6 +78,21 @@ public sealed class SimulateCommandTests
         Assert.That(last[0], Is.EqualTo(0.1).Within(1e-12));
         Assert.That(last[1], Is.EqualTo(((WorldHingeJoint)world.Joints[0]).Angle).Within(1e-9));
         Assert.That(last[5], Is.EqualTo(world.Bodies[0].Pose.Position.Z));
+    }
+
+    [TestCase(",")]
+    [TestCase("\\n")]
+    [TestCase("\\r")]
+    [TestCase("\\\"")]
+    public void Simulate_CsvOfAnOddId_QuotesIt(string odd)
+    {
+        string scene = Path.Combine(_folder, "odd.kinefab"), file = Path.Combine(_folder, "run.csv");
+        File.WriteAllText(scene, File.ReadAllText(Path.Combine(ConformanceCases.Folder, "valid", "hinge", "limits.kinefab")).Replace("\"id\": \"", $"\"id\": \"a{odd}", StringComparison.Ordinal));
+
+        CommandLineTests.Run("simulate", scene, "--seconds", "0.02", "-o", file);
+
+        string id = JsonDocument.Parse($"\"a{odd}\"").RootElement.GetString()!.Replace("\"", "\"\"", StringComparison.Ordinal);
+        Assert.That(File.ReadAllText(file), Does.StartWith("time,").And.Contain($",\"{id}"));
     }
 
     // Driven at 720 degrees a second, so that a wrapped angle would show.

@@ -183,6 +183,24 @@ public sealed class WorldStepTests
             Throws.ArgumentException);
     }
 
+    // PhysX would lock such a hinge at 0, and hold a radius below 0 for none.
+    [Test]
+    public void Settings_LimitsThatNoFileMayState_Throw()
+    {
+        var hinge = (WorldHingeJoint)SmallScene.Create(new HingeJoint { Axis = Vector3d.UnitZ }).Joints[0];
+        var joint = (WorldConfigurableJoint)SmallScene.Create(new ConfigurableJoint()).Joints[0];
+        Assert.That(() => hinge.Settings = new HingeJoint { UseLimits = true, Limits = new JointLimits { Min = 50, Max = -50 } }, Throws.ArgumentException.With.Message.Contains("50"));
+        foreach (ConfigurableJoint wrong in new ConfigurableJoint[]
+        {
+            new() { LinearLimit = new SoftJointLimit { Limit = -0.1 } },
+            new() { AngularYLimit = new SoftJointLimit { Limit = -10 } },
+            new() { LowAngularXLimit = new SoftJointLimit { Limit = 10 }, HighAngularXLimit = new SoftJointLimit { Limit = -10 } },
+        })
+        {
+            Assert.That(() => joint.Settings = wrong, Throws.ArgumentException);
+        }
+    }
+
     [TestCase(double.NaN)]
     [TestCase(double.PositiveInfinity)]
     public void Drive_NoNumber_Throws(double value)

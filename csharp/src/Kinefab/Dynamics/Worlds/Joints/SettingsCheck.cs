@@ -19,10 +19,13 @@ internal static class SettingsCheck
         if (settings is HingeJoint hinge)
         {
             HingeRules.Numbers(hinge, at);
+            HingeRules.LimitsOrder(hinge, at);
         }
         else if (settings is ConfigurableJoint configurable)
         {
             ConfigurableRules.Numbers(configurable, at);
+            ConfigurableRules.AngularXLimitsOrder(configurable, at);
+            ConfigurableRules.SymmetricLimits(configurable, at);
             DriveRules.Numbers(configurable, at);
         }
 

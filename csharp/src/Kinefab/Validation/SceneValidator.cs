@@ -82,18 +82,16 @@ public static class SceneValidator
             TransformRules.ScaleZero(gameObject.Transform, at);
         }
 
-        Mesh? mesh = null;
         for (int c = 0; c < components.Length; c++)
         {
             var place = new Place(findings, "gameObjects", index, c);
             switch (components[c])
             {
                 case MeshFilter filter:
-                    if (NumberRules.Reference(place, "mesh", filter.Mesh, "meshes", document.Meshes.Count))
-                        mesh = document.Meshes[filter.Mesh];
+                    NumberRules.Reference(place, "mesh", filter.Mesh, "meshes", document.Meshes.Count);
                     break;
                 case MeshRenderer renderer:
-                    MeshRules.Renderer(renderer, mesh, document.Materials.Count, place);
+                    MeshRules.Renderer(renderer, Shown(components, document), document.Materials.Count, place);
                     break;
                 case Rigidbody body:
                     BodyRules.Numbers(body, place);
@@ -116,6 +114,18 @@ public static class SceneValidator
                     break;
             }
         }
+    }
+
+    // The mesh beside a renderer, on whichever side of it; null where there is none.
+    private static Mesh? Shown(ReadOnlySpan<Component> components, SceneDocument document)
+    {
+        foreach (Component component in components)
+        {
+            if (component is MeshFilter filter && (uint)filter.Mesh < (uint)document.Meshes.Count)
+                return document.Meshes[filter.Mesh];
+        }
+
+        return null;
     }
 
     private static void Collider(Collider collider, SceneDocument document, Rigidbody? nearestBody, in Place at)

@@ -29,6 +29,19 @@ public class ValidSceneTests
         }
     }
 
+    [TestCase(true)]
+    [TestCase(false)]
+    public void Validate_RendererWithTooFewMaterials_IsToldOnWhicheverSideOfItsMesh(bool isMeshFirst)
+    {
+        Component[] components = isMeshFirst ? [new MeshFilter(), new MeshRenderer()] : [new MeshRenderer(), new MeshFilter()];
+        var document = new SceneDocument
+        {
+            Meshes = [new Mesh { VertexCount = 3, Submeshes = [new Submesh { IndexCount = 3 }] }],
+            GameObjects = [new GameObject { Id = "shown", Components = components }],
+        };
+        Assert.That(SceneValidator.Validate(document).Report.Diagnostics.Select(found => found.Code), Does.Contain(DiagnosticCodes.RendererMaterialCount));
+    }
+
     [Test]
     public void BodyOf_ColliderBelowABody_IsTheNearestAncestorsBody()
     {

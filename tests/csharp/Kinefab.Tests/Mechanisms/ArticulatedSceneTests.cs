@@ -98,6 +98,18 @@ public sealed class ArticulatedSceneTests
         Assert.That(ArticulatedScene.Of(bare, out _)!.Document.GameObjects[0].Components[0], Is.InstanceOf<Rigidbody>(), "what nothing holds is no link");
     }
 
+    [Test]
+    public void Of_GroundWithoutABody_HangsOnAGroundOfItsOwn()
+    {
+        GameObject[] objects =
+        [
+            new() { Id = "kinefab:ground", Name = "Ground" },
+            new() { Id = "arm", Name = "arm", Components = [new Rigidbody(), new HingeJoint()] },
+        ];
+        ValidScene made = ArticulatedScene.Of(SceneValidator.Validate(new SceneDocument { GameObjects = objects }).Scene!, out _)!;
+        Assert.That(made.Document.GameObjects.Count(o => o.Components.OfType<ArticulationBody>().Any()), Is.EqualTo(2));
+    }
+
     // Unity works the connected anchor out: the file's own is nothing then.
     [Test]
     public void Of_AnchorThatUnityWorksOut_IsTheOwnOne()

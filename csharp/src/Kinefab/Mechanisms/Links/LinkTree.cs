@@ -54,7 +54,7 @@ internal sealed class LinkTree
             }
         }
 
-        ground = objects.FindIndex(each => each.Id == GroundId);
+        ground = objects.FindIndex(each => each.Id == GroundId && each.Body is not null);
         if (ground < 0 && needsGround)
         {
             ground = objects.Count;

@@ -23,7 +23,9 @@ internal sealed class RecordedTrajectory
         }
         else
         {
-            Step = file.GetProperty("step").GetDouble();
+            Step = file.GetProperty("step").GetDouble() is > 0 and < double.PositiveInfinity and double step
+                ? step
+                : throw new InvalidDataException("Its step is no positive number of seconds.");
             Solver = file.GetProperty("solver").GetString() == "unity" ? SolverKind.Unity : SolverKind.Exact;
         }
 

@@ -141,6 +141,23 @@ public sealed class ConstraintTests
         }
     }
 
+    [TestCase("0")]
+    [TestCase("-0.02")]
+    [TestCase("1e999")]
+    public void Trajectory_OfNoStep_IsNone(string step)
+    {
+        string file = Path.Combine(Path.GetTempPath(), Path.GetRandomFileName());
+        File.WriteAllText(file, $$"""{"format": "kinefab.trajectory", "version": "1.0", "solver": "exact", "step": {{step}}, "times": [0, 0.02], "coordinates": [], "bodies": []}""");
+        try
+        {
+            Assert.That(Failure(Lever, Matches.Trajectory(file)), Does.Contain($"But was:  {file} is no trajectory of dotnet kinefab: Its step is no positive number of seconds."));
+        }
+        finally
+        {
+            File.Delete(file);
+        }
+    }
+
     [Test]
     public void Trajectory_WithoutItsFile_FailsAndSaysHowItIsRecorded()
     {

@@ -197,7 +197,7 @@ public sealed partial class World
         }
     }
 
-    /// <summary>Drives a joint coordinate towards a value, see <see cref="WorldJoint.DriveTo"/>; drives of other coordinates stay.</summary>
+    /// <summary>Drives a joint coordinate towards a value, see <see cref="WorldJoint.DriveTo"/>; drives of other coordinates stay, but for those that have the same one.</summary>
     /// <param name="name">As in <see cref="this[string]"/>.</param>
     /// <param name="target">Degrees or metres.</param>
     /// <exception cref="ArgumentException">None answers to the name, or several do (the message says which there are); or the target is no finite number.</exception>
@@ -207,7 +207,7 @@ public sealed partial class World
         joint.DriveTo(coordinate, target);
     }
 
-    /// <summary>Drives a joint coordinate at a speed, see <see cref="WorldJoint.DriveAt"/>; drives of other coordinates stay.</summary>
+    /// <summary>Drives a joint coordinate at a speed, see <see cref="WorldJoint.DriveAt"/>; drives of other coordinates stay, but for those that have the same one.</summary>
     /// <param name="name">As in <see cref="this[string]"/>.</param>
     /// <param name="speed">Degrees/s or metres/s.</param>
     /// <exception cref="ArgumentException">None answers to the name, or several do (the message says which there are); or the speed is no finite number.</exception>

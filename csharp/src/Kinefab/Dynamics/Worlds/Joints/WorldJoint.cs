@@ -93,7 +93,10 @@ public abstract class WorldJoint
     /// <see cref="Coordinate"/> says after the run.
     /// </summary>
     /// <param name="coordinate">As in <see cref="Coordinate"/>.</param>
-    /// <param name="target">Degrees (over any number of turns) or metres, zero at the start. Goals about several axes of a joint add up to one rotation.</param>
+    /// <param name="target">
+    /// Degrees (over any number of turns) or metres, zero at the start. Goals about several axes of a joint add up to one rotation. The angles about Y
+    /// and Z have one drive, as in Unity, and with a slerp drive all three: what drives one of them so drives the others to their goals, or at their speeds, too.
+    /// </param>
     /// <exception cref="ArgumentException">The joint has no such coordinate, or the target is no number.</exception>
     /// <example><code>
     /// WorldJoint wrist = world.Joint("Wrist");

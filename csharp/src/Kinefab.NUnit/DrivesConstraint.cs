@@ -25,7 +25,7 @@ public sealed class DrivesConstraint : Constraint
     /// <inheritdoc/>
     public override string Description => string.Create(
         CultureInfo.InvariantCulture,
-        $"{_driven} goes from {_from} to {_to}{string.Concat(_followers.Select(f => $" and moves {f.Name} by {Figures.Number(f.Stroke)} within {_tolerance}"))}");
+        $"{_driven} goes from {_from} to {_to}{string.Concat(_followers.Select(f => $" and moves {f.Name} by {Figures.Number(f.Stroke)} within {Figures.Number(_tolerance)}"))}");
 
     /// <summary>Where the drive begins; the exported pose (0) unless stated.</summary>
     /// <param name="value">Degrees or metres, 0 at the exported pose.</param>

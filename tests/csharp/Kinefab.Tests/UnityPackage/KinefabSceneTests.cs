@@ -62,10 +62,11 @@ public sealed class KinefabSceneTests
     public void Instantiate_UnderAnUnevenScale_SaysSo()
     {
         var parent = new Unity.GameObject("parent");
-        parent.transform.localScale = new Unity.Vector3(1, 2, 1);
+        parent.transform.localScale = new Unity.Vector3(1, 2.5f, 1);
         List<KinefabFinding> findings = [];
-        Assert.That(KinefabScene.Instantiate(World, parent.transform, findings: findings), Is.Not.Null);
-        Assert.That(findings.Select(f => f.code), Does.Contain("UNITY_SCALE_UNEVEN"));
+        using (new CommaCulture())
+            Assert.That(KinefabScene.Instantiate(World, parent.transform, findings: findings), Is.Not.Null);
+        Assert.That(findings.Single(f => f.code == "UNITY_SCALE_UNEVEN").message, Does.Contain("1, 2.5, 1"));
     }
 
     [Test]

@@ -21,5 +21,5 @@ public sealed partial record JointLimits : DocumentObject
     /// <summary>Distance from the limit within which it is looked at, degrees; 0: PhysX's choice.</summary>
     public double ContactDistance { get; init; }
 
-    private protected override string Describe() => Line($"limits {Min} to {Max} deg{(Bounciness > 0 ? $", bounciness {Bounciness}" : "")}");
+    private protected override string Describe() => Line($"limits {Min} to {Max} deg{(Bounciness > 0 ? Line($", bounciness {Bounciness}") : "")}");
 }

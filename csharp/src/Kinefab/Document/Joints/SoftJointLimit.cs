@@ -15,5 +15,5 @@ public sealed partial record SoftJointLimit : DocumentObject
     /// <summary>Distance from the limit within which it is looked at, metres or degrees; 0: PhysX's choice.</summary>
     public double ContactDistance { get; init; }
 
-    private protected override string Describe() => Line($"limit {Limit} m or deg{(Bounciness > 0 ? $", bounciness {Bounciness}" : "")}");
+    private protected override string Describe() => Line($"limit {Limit} m or deg{(Bounciness > 0 ? Line($", bounciness {Bounciness}") : "")}");
 }

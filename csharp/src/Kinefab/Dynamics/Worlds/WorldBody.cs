@@ -153,7 +153,7 @@ public sealed class WorldBody
 
     /// <summary>Where it is and how it moves, with units.</summary>
     public override string ToString() =>
-        FormattableString.Invariant($"{Id}{(IsKinematic ? ", kinematic" : $", {_settings.Mass} kg")} at {Pose}, {LinearVelocity} m/s, {AngularVelocity} rad/s");
+        FormattableString.Invariant($"{Id}{(IsKinematic ? ", kinematic" : FormattableString.Invariant($", {_settings.Mass} kg"))} at {Pose}, {LinearVelocity} m/s, {AngularVelocity} rad/s");
 
     internal void Exchange(StateTape tape) => tape.Value(ref _settings);
 

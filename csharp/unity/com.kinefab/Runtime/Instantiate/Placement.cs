@@ -22,7 +22,7 @@ namespace KinefabUnity
             Scale = scale.x;
             if (!(scale.x > 0) || System.Math.Abs(scale.y - scale.x) > Even * scale.x || System.Math.Abs(scale.z - scale.x) > Even * scale.x)
             {
-                findings.Add(KinefabFinding.Of("UNITY_SCALE_UNEVEN", "", ("object", frame.name), ("scale", $"{scale.x}, {scale.y}, {scale.z}")));
+                findings.Add(KinefabFinding.Of("UNITY_SCALE_UNEVEN", "", ("object", frame.name), ("scale", System.FormattableString.Invariant($"{scale.x}, {scale.y}, {scale.z}"))));
                 Scale = 1;
             }
         }

@@ -26,6 +26,11 @@ public static partial class GearPair
             Call(coupling, "FixedUpdate");
             object[] during = Settings(driven);
             int wrong = before.SequenceEqual(during) ? 1 : 0;
+            if (driven is ConfigurableJoint standing && standing.targetAngularVelocity.x != 0)
+            {
+                wrong++; // its damper would hold it beyond its target
+            }
+
             if (how.Contains("broken"))
             {
                 coupling.terms[0].joint = null;
@@ -57,6 +62,8 @@ public static partial class GearPair
         private static ConfigurableJoint Set(ConfigurableJoint joint)
         {
             joint.targetPosition = new Vector3(1, 2, 3);
+            joint.targetVelocity = new Vector3(4, 5, 6);
+            joint.targetAngularVelocity = new Vector3(7, 8, 9);
             joint.targetRotation = new Quaternion(0.6f, 0, 0, 0.8f);
             joint.rotationDriveMode = RotationDriveMode.Slerp;
             joint.xDrive = new JointDrive { positionSpring = 6, positionDamper = 7, maximumForce = 8 };

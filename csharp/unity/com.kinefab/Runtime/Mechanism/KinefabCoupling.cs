@@ -220,12 +220,15 @@ namespace KinefabUnity
 
             Vector3 position = own.targetPosition;
             Quaternion rotation = own.targetRotation;
+            Vector3 speed = own.targetVelocity, turning = own.targetAngularVelocity;
             RotationDriveMode mode = own.rotationDriveMode;
             JointDrive x = own.xDrive, y = own.yDrive, z = own.zDrive, twist = own.angularXDrive, swing = own.angularYZDrive;
             return () =>
             {
                 own.targetPosition = position;
                 own.targetRotation = rotation;
+                own.targetVelocity = speed;
+                own.targetAngularVelocity = turning;
                 own.rotationDriveMode = mode;
                 own.xDrive = x;
                 own.yDrive = y;
@@ -302,6 +305,7 @@ namespace KinefabUnity
                 Vector3 position = joint.targetPosition;
                 float value = (float)(sense * (target + _driven.Zero)); // Unity counts from where the anchors meet
                 joint.targetPosition = new Vector3(axis == 0 ? value : position.x, axis == 1 ? value : position.y, axis == 2 ? value : position.z);
+                joint.targetVelocity = Without(joint.targetVelocity, axis);
                 if (axis == 0)
                 {
                     joint.xDrive = drive;
@@ -321,6 +325,7 @@ namespace KinefabUnity
             double half = sense * target * Math.PI / 360;
             _halves = new Vec(axis == 3 ? half : 0, axis == 4 ? half : 0, axis == 5 ? half : 0);
             joint.targetRotation = Goal();
+            joint.targetAngularVelocity = Without(joint.targetAngularVelocity, axis - 3);
             joint.rotationDriveMode = RotationDriveMode.XYAndZ;
             if (axis == 3)
             {
@@ -330,6 +335,12 @@ namespace KinefabUnity
             {
                 joint.angularYZDrive = drive;
             }
+        }
+
+        // A damper that still wants the speed of a motor would hold the spring beyond its target.
+        private static Vector3 Without(Vector3 speed, int axis)
+        {
+            return new Vector3(axis == 0 ? 0 : speed.x, axis == 1 ? 0 : speed.y, axis == 2 ? 0 : speed.z);
         }
 
         /// <summary>Where all couplings of the joint together turn it: each angle is that of the sine about its axis and of w.</summary>

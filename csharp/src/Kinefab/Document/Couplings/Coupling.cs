@@ -59,5 +59,5 @@ public sealed partial record Coupling : DocumentObject
         Terms.Count > 0 ? Terms : A is JointCoordinate a && Ratio is double ratio ? new[] { new CouplingTerm { Coordinate = a, Ratio = ratio } } : Terms;
 
     private protected override string Describe() =>
-        Line($"{Kind}{(Id is null ? "" : $" \"{Id}\"")}: {B} = {string.Join(" + ", Followed)}{(Offset == 0 ? "" : $" + {Offset}")}");
+        Line($"{Kind}{(Id is null ? "" : $" \"{Id}\"")}: {B} = {string.Join(" + ", Followed)}{(Offset == 0 ? "" : Line($" + {Offset}"))}");
 }

@@ -16,7 +16,7 @@ internal static class SavedBuffers
     internal static IReadOnlyList<SceneBuffer> Named(IReadOnlyList<SceneBuffer> buffers, string name) =>
         buffers.Select(buffer => buffer.Data is null ? buffer : Named(buffer.Stated(), name)).ToArray();
 
-    /// <summary>Writes each that is not there yet.</summary>
+    /// <summary>Writes each whose data are there.</summary>
     internal static void Write(IEnumerable<SceneBuffer> buffers, string folder)
     {
         foreach (SceneBuffer buffer in buffers)

@@ -62,5 +62,5 @@ public abstract record Joint : Component
 
     /// <summary>What it holds its body to, and what breaks it.</summary>
     private protected string Ends =>
-        Line($"to {(ConnectedBody is int body ? $"object {body}" : "the world")}{(BreakForce < double.PositiveInfinity ? $", breaks at {BreakForce} N" : "")}{(BreakTorque < double.PositiveInfinity ? $", breaks at {BreakTorque} N m" : "")}{(Closure ? ", closes a loop" : "")}");
+        Line($"to {(ConnectedBody is int body ? $"object {body}" : "the world")}{(BreakForce < double.PositiveInfinity ? Line($", breaks at {BreakForce} N") : "")}{(BreakTorque < double.PositiveInfinity ? Line($", breaks at {BreakTorque} N m") : "")}{(Closure ? ", closes a loop" : "")}");
 }

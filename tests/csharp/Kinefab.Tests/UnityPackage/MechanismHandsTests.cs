@@ -188,6 +188,33 @@ public sealed class MechanismHandsTests
         Unity.Object.DestroyImmediate(eye);
     }
 
+    // The button was let go over another window: the next press would take the solver for who had the parts before.
+    [Test]
+    public void Dragger_PressedAgainWithoutARelease_GivesThePartsBackToPhysics()
+    {
+        using var played = new PlayedMechanism(Path.Combine(Samples, "FourBar", "FourBar.kinefab"), KinefabPhysics.AsExported);
+        played.Component.Mover = KinefabMover.Physics;
+        var eye = new Unity.GameObject("Eye");
+        Unity.Camera camera = eye.AddComponent<Unity.Camera>();
+        Unity.Bounds crank = played.Component.MovingParts().Single(part => part.name == "Crank").GetComponentsInChildren<Unity.MeshRenderer>()[0].bounds;
+        eye.transform.position = crank.center - new Unity.Vector3(0, 0, 1);
+        KinefabDragger dragger = eye.AddComponent<KinefabDragger>();
+        dragger.view = camera;
+        Unity.Input.mousePosition = new Unity.Vector3(0, 0, 0);
+        Unity.Input.IsDown = true;
+        for (int press = 0; press < 2; press++)
+        {
+            Unity.Input.WasDown = false;
+            Unity.Player.Frame();
+            Assert.That((dragger.Part?.name, played.Component.Mover), Is.EqualTo(("Crank", KinefabMover.Exact)));
+        }
+
+        Unity.Input.IsDown = Unity.Input.WasDown = false;
+        Unity.Player.Frame();
+        Assert.That(played.Component.Mover, Is.EqualTo(KinefabMover.Physics));
+        Unity.Object.DestroyImmediate(eye);
+    }
+
     [Test]
     public void Inspector_HasASliderForEachFreedomAndRecordsUndo()
     {

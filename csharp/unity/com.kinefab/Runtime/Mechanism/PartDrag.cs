@@ -30,6 +30,8 @@ namespace KinefabUnity
         /// <returns>False: nothing that moves is there.</returns>
         public bool Begin(Ray ray, Vector3 forward, KinefabMechanism only = null)
         {
+            End(); // a release may have gone to another window
+
             KinefabMechanism found = only;
             Transform part = null;
             float distance = float.PositiveInfinity;

@@ -162,8 +162,8 @@ public class PositionSolverTests
                 Assert.That(result.Status, Is.Not.EqualTo(DriveStatus.NotClosed));
                 Assert.That(result.ErrorMetres, Is.LessThan(1e-9));
                 Assert.That(result.ErrorDegrees, Is.LessThan(1e-7));
-                solver.Newton.Limits.Begin(mechanism.NewState().Poses);
-                solver.Newton.Limits.Measure(state.Poses);
+                solver.Newton.Limits.Begin(mechanism.NewState());
+                solver.Newton.Limits.Measure(state);
                 Assert.That(solver.Newton.Limits.Worst(1e-8), Is.EqualTo(-1), "a limit is broken");
                 for (int k = 0; k < mechanism.Coordinates.Count; k++)
                 {

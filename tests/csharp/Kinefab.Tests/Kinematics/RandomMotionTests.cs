@@ -92,8 +92,8 @@ public class RandomMotionTests
         Assert.That(result.ErrorDegrees, Is.LessThan(1e-7), where);
         Assert.That(Enumerable.Range(0, mechanism.Coordinates.Count).All(k => double.IsFinite(state.Coordinate(k))), where);
         Assert.That(state.Poses.All(p => p.Position.IsFinite && Math.Abs(p.Rotation.LengthSquared - 1) < 1e-12), where);
-        solver.Newton.Limits.Begin(mechanism.NewState().Poses);
-        solver.Newton.Limits.Measure(state.Poses);
+        solver.Newton.Limits.Begin(mechanism.NewState());
+        solver.Newton.Limits.Measure(state);
         Assert.That(solver.Newton.Limits.Worst(1e-8), Is.EqualTo(-1), $"{where}: a limit is broken");
     }
 }

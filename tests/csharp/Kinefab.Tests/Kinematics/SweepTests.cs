@@ -2,6 +2,7 @@ using System;
 using System.Collections.Generic;
 using Kinefab.Document;
 using Kinefab.Kinematics;
+using Kinefab.Numerics;
 using NUnit.Framework;
 
 namespace Kinefab.Tests.Kinematics;
@@ -73,6 +74,25 @@ public class SweepTests
             Assert.That(low.Value, Is.EqualTo(-10).Within(1e-9));
             Assert.That(high.Limit?.IsUpper, Is.True);
             Assert.That(high.Value, Is.EqualTo(80).Within(1e-9));
+        }
+    }
+
+    // A step of the drive is wider than the gap between these limits.
+    [TestCase(-180, 180)]
+    [TestCase(-179.9, 179.9)]
+    [TestCase(-170, 180)]
+    public void Range_LimitsThatLeaveANarrowGap_EndsAtTheLimits(double lower, double upper)
+    {
+        var scene = new MechanismScene();
+        JointPlace hinge = scene.Hinge(scene.Body("lid", Vector3d.UnitX), null, Vector3d.Zero, Vector3d.UnitZ, lower, upper);
+        Mechanism mechanism = scene.Mechanism();
+        (RangeLimit low, RangeLimit high) = new Sweep(new PositionSolver(mechanism)).Range(mechanism.NewState(), hinge.Angle(mechanism));
+        using (Assert.EnterMultipleScope())
+        {
+            Assert.That(low.End, Is.EqualTo(RangeEnd.Limit));
+            Assert.That(low.Value, Is.EqualTo(lower).Within(1e-9));
+            Assert.That(high.End, Is.EqualTo(RangeEnd.Limit));
+            Assert.That(high.Value, Is.EqualTo(upper).Within(1e-9));
         }
     }
 

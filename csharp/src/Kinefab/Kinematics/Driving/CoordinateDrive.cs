@@ -65,7 +65,7 @@ internal sealed class CoordinateDrive
         double way = Aim(state, targets);
         _branches = 0;
         _isFresh = !BifurcationStep.HasTrail(state, _coordinates.AsSpan(0, _count));
-        _newton.Limits.Begin(state.Poses);
+        _newton.Limits.Begin(state);
         _good.CopyFrom(state);
         double s = 0;
         double step = way > LargestStep ? LargestStep / way : 1;
@@ -103,7 +103,7 @@ internal sealed class CoordinateDrive
                 leapt = true;
             }
 
-            _newton.Limits.Measure(state.Poses);
+            _newton.Limits.Measure(state);
             int broken = _newton.Limits.Worst(LimitTolerance);
             if (broken >= 0)
             {
@@ -244,7 +244,7 @@ internal sealed class CoordinateDrive
         LimitSet limits = _newton.Limits;
         double inside = start;
         double outer = limits.Distances[limit];
-        limits.Measure(_good.Poses);
+        limits.Measure(_good);
         double inner = limits.Distances[limit];
         int kept = 0;
         for (int n = 0; n < MaxContactIterations && inner > LimitTolerance && outside - inside > 1e-16; n++)
@@ -258,13 +258,13 @@ internal sealed class CoordinateDrive
                 continue;
             }
 
-            limits.Measure(state.Poses);
+            limits.Measure(state);
             int broken = limits.Worst(LimitTolerance);
             if (broken >= 0 && broken != limit)
             {
                 limit = broken;
                 outer = limits.Distances[limit];
-                limits.Measure(_good.Poses);
+                limits.Measure(_good);
                 inner = limits.Distances[limit];
                 (inside, outside, kept) = (start, s, 0);
             }

@@ -59,14 +59,14 @@ internal sealed class PointDrag
         LimitSet limits = _newton.Limits;
         _newton.Iterations = 0;
         _newton.ClearDriven();
-        limits.Begin(state.Poses);
+        limits.Begin(state);
         if (!_newton.Close(state))
         {
             return Result(DriveStatus.NotClosed, 0, -1);
         }
 
         // A state that closing pushed through a limit starts from there.
-        limits.Begin(state.Poses);
+        limits.Begin(state);
         _good.CopyFrom(state);
         double start = Distance(state, point, target);
         double distance = start;
@@ -77,9 +77,9 @@ internal sealed class PointDrag
         {
             _newton.Cancellation.ThrowIfCancellationRequested();
             bool released = Pull(state, point, target, damping, withCurvature, out double size);
-            limits.Measure(state.Poses);
+            limits.Measure(state);
             bool closed = _newton.Close(state);
-            limits.Measure(state.Poses);
+            limits.Measure(state);
             int broken = limits.Worst(LimitTolerance);
             if (closed && broken >= 0)
             {

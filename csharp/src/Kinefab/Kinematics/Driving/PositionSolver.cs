@@ -180,7 +180,7 @@ public sealed class PositionSolver
         Begin(state, cancellation);
         _newton.Iterations = 0;
         _newton.ClearDriven();
-        _newton.Limits.Begin(state.Poses);
+        _newton.Limits.Begin(state);
         bool closed = _newton.Close(state);
         state.ForgetTrail();
         DriveStatus status = closed ? DriveStatus.Reached : DriveStatus.NotClosed;

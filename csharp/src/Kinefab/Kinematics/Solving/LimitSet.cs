@@ -1,5 +1,6 @@
 using System;
 using System.Collections.Generic;
+using Kinefab.Document;
 using Kinefab.Joints;
 using Kinefab.Numerics;
 
@@ -25,6 +26,11 @@ internal sealed class LimitSet
     private readonly Linkage _linkage;
     private readonly int[] _joints;
     private readonly double[] _slack;
+
+    // Of each joint the coordinate of a limited twist, or -1, and that twist with its whole turns where it was measured last: the joint's row
+    // wraps at half a turn, so that a step over a narrow gap between its stops would come out inside again.
+    private readonly int[] _coordinates;
+    private readonly double[] _twists;
     private readonly ConstraintRow[] _rows = new ConstraintRow[JointModel.MaxRows];
 
     public LimitSet(Linkage linkage)
@@ -43,6 +49,9 @@ internal sealed class LimitSet
         Distances = new double[_joints.Length * Sides];
         _slack = new double[Distances.Length];
         IsActive = new bool[Distances.Length];
+        _twists = new double[_joints.Length];
+        _coordinates = Array.ConvertAll(_joints, joint => Array.FindIndex(
+            linkage.Coordinates, c => c.Joint == joint && c.Coordinate is Coordinate.Angle or Coordinate.AngularX && linkage.Joints[joint].Layout().TwistLimits > 0));
     }
 
     /// <summary>Number of limits, Sides for each limited joint.</summary>
@@ -61,29 +70,34 @@ internal sealed class LimitSet
     public static LimitSide SideOf(int limit) => (LimitSide)(limit % Sides);
 
     /// <summary>Frees all limits; those broken at the start may stay as broken as they are.</summary>
-    public void Begin(Pose[] poses)
+    public void Begin(MechanismState state)
     {
         Array.Clear(IsActive, 0, IsActive.Length);
         Array.Clear(_slack, 0, _slack.Length);
-        Measure(poses);
+        Measure(state);
         for (int i = 0; i < Count; i++)
         {
             _slack[i] = Math.Min(0, Distances[i]);
         }
 
-        Measure(poses);
+        Measure(state);
     }
 
     /// <summary>Finds all distances.</summary>
-    public void Measure(Pose[] poses)
+    public void Measure(MechanismState state)
     {
         for (int i = 0; i < _joints.Length; i++)
         {
-            int count = Prepare(_joints[i], poses);
-            int swings = AngularLimits(count) - _linkage.Joints[_joints[i]].Layout().TwistLimits;
-            for (int side = 0; side < Sides; side++)
+            if (_coordinates[i] >= 0)
             {
-                Distances[i * Sides + side] = double.PositiveInfinity;
+                _twists[i] = state.Values[_coordinates[i]] * (_linkage.Coordinates[_coordinates[i]].IsAlongRows ? 1 : -1);
+            }
+
+            int count = Prepare(_joints[i], state.Poses);
+            int swings = AngularLimits(count) - _linkage.Joints[_joints[i]].Layout().TwistLimits;
+            for (int s = 0; s < Sides; s++)
+            {
+                Distances[i * Sides + s] = double.PositiveInfinity;
             }
 
             int angular = 0;
@@ -91,8 +105,9 @@ internal sealed class LimitSet
             {
                 if (_rows[r].Has(RowFlags.Limit))
                 {
-                    int limit = i * Sides + (int)Side(_rows[r], swings, ref angular);
-                    double distance = _rows[r].Has(RowFlags.Angular) ? _rows[r].GeometricError : _rows[r].GeometricError / _linkage.Length;
+                    LimitSide side = Side(_rows[r], swings, ref angular);
+                    int limit = i * Sides + (int)side;
+                    double distance = _rows[r].Has(RowFlags.Angular) ? _rows[r].GeometricError + Turns(i, side, _rows[r]) : _rows[r].GeometricError / _linkage.Length;
                     Distances[limit] = distance - _slack[limit];
                 }
             }
@@ -128,6 +143,7 @@ internal sealed class LimitSet
             if (_rows[r].Has(RowFlags.Limit) && Side(_rows[r], swings, ref angular) == SideOf(limit))
             {
                 row = _rows[r];
+                row.GeometricError += Turns(limit / Sides, SideOf(limit), row);
                 row.GeometricError -= row.Has(RowFlags.Angular) ? _slack[limit] : _slack[limit] * _linkage.Length;
                 return true;
             }
@@ -135,6 +151,20 @@ internal sealed class LimitSet
 
         row = default;
         return false;
+    }
+
+    // What whole turns add to the distance of a twist from one of its ends, radians: 0 while the row counts as the coordinate does.
+    private double Turns(int i, LimitSide side, in ConstraintRow row)
+    {
+        if (_coordinates[i] < 0 || side is not (LimitSide.TwistLower or LimitSide.TwistUpper))
+        {
+            return 0;
+        }
+
+        AngularLimit range = _linkage.Joints[_joints[i]] is RevoluteJoint hinge ? hinge.Limit : ((D6Joint)_linkage.Joints[_joints[i]]).TwistLimit;
+        double angle = side == LimitSide.TwistLower ? range.Lower + row.GeometricError : range.Upper - row.GeometricError;
+        double turns = SwingTwist.Nearest(angle, _twists[i]) - angle;
+        return side == LimitSide.TwistLower ? turns : -turns;
     }
 
     private int Prepare(int joint, Pose[] poses)

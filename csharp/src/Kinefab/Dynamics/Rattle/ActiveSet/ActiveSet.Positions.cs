@@ -11,8 +11,7 @@ internal sealed partial class ActiveSet<V>
     // Of what a limit may be passed by at the end of a drift: what the search for states has left at just that is not missed.
     private const double Slack = 1.01;
 
-    // Of a correction, the share from which on rows that it leads beyond their bounds are held there together.
-    private const double LeastShare = 0.01;
+    // Of what a drive without limit of force may need, so much is a row that runs away.
     private const double MostBeyond = 10;
 
     /// <summary>Residuals of the scalar rows at the end of the drift as errors, m or rad.</summary>
@@ -39,15 +38,14 @@ internal sealed partial class ActiveSet<V>
     }
 
     /// <summary>
-    /// The share of a move of the drift's impulses that leads to the first bound of a row, where that is a small one: of rows that nearly depend on each
-    /// other, whose impulses grow without end before they agree, one has to give way, and what the move makes of the others is that of its not
-    /// giving way. Elsewhere 1: the rows that are led beyond their bounds give way together.
+    /// The share of a move of the drift's impulses that leads to the first bound of a row; 1 where it leads beyond none. Of rows that nearly depend on each
+    /// other, whose impulses grow without end before they agree, one has to give way, and what the move makes of the others is that of its not giving way.
     /// </summary>
     /// <param name="move">Of all rows.</param>
-    /// <param name="first">The row; -1: none.</param>
+    /// <param name="first">The row; -1: none. Where moves before this one led rows beyond their bounds, the one that came to its bound first.</param>
     public double ShareOfMove(double[] move, out int first)
     {
-        double least = LeastShare;
+        double least = 1;
         first = -1;
         for (int i = 0; i < _rows.Length; i++)
         {
@@ -57,9 +55,8 @@ internal sealed partial class ActiveSet<V>
                 continue;
             }
 
-            double before = _batch.Work.PositionImpulses[scalar.Index];
             double bound = scalar.Theta * (move[scalar.Index] > 0 ? scalar.High : scalar.Low);
-            double share = Math.Max(0, (bound - before) / move[scalar.Index]);
+            double share = (bound - _batch.Work.PositionImpulses[scalar.Index]) / move[scalar.Index];
             if (share < least)
             {
                 least = share;
@@ -67,7 +64,7 @@ internal sealed partial class ActiveSet<V>
             }
         }
 
-        return first < 0 ? 1 : least;
+        return Math.Max(0, least);
     }
 
     /// <summary>Whether a drive without limit of force that was not slowed down ran away in the step: what holds it is worth a look, see <see cref="HeldDrives"/>.</summary>

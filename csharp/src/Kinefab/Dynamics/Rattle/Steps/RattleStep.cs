@@ -19,6 +19,9 @@ internal static class RattleStep<V>
     // And with conjugate gradients.
     private const int MaxGradientIterations = 40;
 
+    // Rows that give way to a move one by one, before all that are left do at once.
+    private const int MaxAlone = 16;
+
     /// <summary>Kick, impulses and drift, until the lanes that are active at the call have a closed end pose.</summary>
     /// <param name="batch">Built and factored at the start pose.</param>
     /// <param name="h">Step, s.</param>
@@ -115,10 +118,10 @@ internal static class RattleStep<V>
     // Rows whose impulses the move leads beyond their bounds give way, and the rest moves on without them; whether one did.
     private static bool MoveWithinBounds(LaneBatch<V> batch, double h, ActiveSet<V> scalars, ConjugateGradient? conjugateGradient)
     {
-        bool isAny = false;
-        while (true)
+        for (int pass = 0; ; pass++)
         {
-            double share = scalars.ShareOfMove(batch.Work.Move, out int first);
+            int first = -1;
+            double share = pass < MaxAlone ? scalars.ShareOfMove(batch.Work.Move, out first) : 1;
             for (int i = 0; i < batch.Work.Move.Length; i++)
             {
                 batch.Work.Move[i] *= share;
@@ -128,10 +131,9 @@ internal static class RattleStep<V>
             ChordIteration<V>.Move(batch, batch.Work.PositionImpulses);
             if (!scalars.ClampToBounds(first))
             {
-                return isAny;
+                return pass > 0;
             }
 
-            isAny = true;
             Factor(batch, true);
             ReleaseAtBound(batch, h, scalars);
             ChordIteration<V>.FindMove(batch, h, true, conjugateGradient);

@@ -70,6 +70,8 @@ internal abstract class JointModel
     /// <summary>A broken joint has no rows.</summary>
     public bool IsBroken;
 
+    private bool _isCounted;
+
     /// <summary>The joint's frames at poses of its bodies.</summary>
     public void FramesAt(in Pose body0, in Pose body1, out JointFrames f) => JointFrames.Of(body0 * Frame0, body1 * Frame1, ExtendedLimits, out f);
 
@@ -77,7 +79,23 @@ internal abstract class JointModel
     public void FinishTwist(in Pose body0, in Pose body1)
     {
         FramesAt(body0, body1, out JointFrames f);
-        LastTwist = SwingTwist.Nearest(Twisted(f), LastTwist);
+        CountTwist(SwingTwist.Nearest(Twisted(f), LastTwist));
+    }
+
+    /// <summary>As <see cref="FinishTwist"/>, of an angle that is known with its whole turns.</summary>
+    /// <param name="twist">Radians.</param>
+    public void CountTwist(double twist)
+    {
+        LastTwist = twist;
+        _isCounted = true;
+    }
+
+    /// <summary>Between steps: where the angle about X stands; the next step has counted nothing yet.</summary>
+    /// <param name="twist">With its whole turns, radians.</param>
+    public void RestartTwist(double twist)
+    {
+        LastTwist = twist;
+        _isCounted = false;
     }
 
     /// <summary>Whether the solver counted the angle about X part by part through the last step, so that <see cref="LastTwist"/> is where it stands.</summary>
@@ -85,7 +103,7 @@ internal abstract class JointModel
     public bool HasCounted(double twist)
     {
         const double rounding = 1e-6;
-        return LimitsFromAfar && Math.Abs(SwingTwist.Nearest(twist, LastTwist) - LastTwist) <= rounding;
+        return LimitsFromAfar && _isCounted && Math.Abs(SwingTwist.Nearest(twist, LastTwist) - LastTwist) <= rounding;
     }
 
     /// <summary>A copy of the joint between other bodies.</summary>

@@ -114,6 +114,35 @@ public sealed class WorldDriveTests
         Assert.That(twist.Joints[0].Coordinate(Coordinate.AngularX) - turn, Is.EqualTo(2400).Within(1));
     }
 
+    /// <summary>A wheel that gears drive has no drive of its own: at 3,000 turns a minute it comes round once in each step.</summary>
+    [TestCase(9000, 2)]
+    [TestCase(9000, 3)]
+    [TestCase(12000, -1.5)]
+    public void DriveAt_GearedToMoreThanHalfATurnAStep_IsCounted(double speed, double ratio)
+    {
+        JointCoordinate At(int wheel) => new() { GameObject = wheel, Component = 1, Coordinate = Coordinate.Angle };
+        GameObject Wheel(string id, double x) => new()
+        {
+            Id = id, Name = id, Transform = SmallScene.At(new Pose(new Vector3d(x, 0, 0), Quaterniond.Identity)),
+            Components = [new Rigidbody { AngularDamping = 0, MaxAngularVelocity = 1000 }, new HingeJoint { Axis = Vector3d.UnitZ }],
+        };
+        World world = World.Create(
+            SmallScene.Validate(new SceneDocument
+            {
+                Physics = new Physics { Gravity = Vector3d.Zero }, GameObjects = [Wheel("a", 0), Wheel("b", 2)],
+                Couplings = [new Coupling { Kind = CouplingKind.Gear, A = At(0), B = At(1), Ratio = ratio }],
+            }),
+            SolverKind.Exact);
+
+        world.Joints[0].DriveAt(Coordinate.Angle, speed);
+        for (int i = 0; i < 50; i++)
+        {
+            world.Step(0.02);
+        }
+
+        Assert.That(world.Joints[1].Coordinate(Coordinate.Angle), Is.EqualTo(ratio * world.Joints[0].Coordinate(Coordinate.Angle)).Within(1e-3));
+    }
+
     [TestCase(Coordinate.X, false, 0.2)]
     [TestCase(Coordinate.Z, true, -0.2)]
     public void DriveAt_Slide_HoldsTheSpeed(Coordinate coordinate, bool swap, double speed)

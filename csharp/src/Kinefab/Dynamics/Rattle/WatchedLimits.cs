@@ -118,7 +118,7 @@ internal sealed class WatchedLimits<V>
             JointModel joint = batch.Models[n * w + lane]!;
             if (block.Watch is WatchForm.Twist or WatchForm.Turn)
             {
-                joint.LastTwist = _turns[2 * n * w + lane];
+                joint.CountTwist(_turns[2 * n * w + lane]);
             }
             else if (block.Watch == WatchForm.Prepared)
             {

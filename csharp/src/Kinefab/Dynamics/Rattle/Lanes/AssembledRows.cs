@@ -100,6 +100,10 @@ internal static class AssembledRows<V>
                 for (int i = 0; i < coupling.Last.Length; i++)
                 {
                     coupling.Last[i] = coupling.Rows[i].GeometricError;
+                    if (coupling.Coordinates[i].Axis == CoordinateAxis.AngularX)
+                    {
+                        coupling.Coordinates[i].Joint.FinishTwist(PoseOf(batch, block.Bodies[block.CouplingSides[2 * i]]), PoseOf(batch, block.Bodies[block.CouplingSides[(2 * i) + 1]]));
+                    }
                 }
             }
             else if (block.ScalarCount > 0)

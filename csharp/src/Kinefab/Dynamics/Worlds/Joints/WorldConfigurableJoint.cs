@@ -136,7 +136,7 @@ public sealed class WorldConfigurableJoint : WorldJoint
             _unwrapped[i] = Evaluate(i, i == FirstAngle ? twist : 0, out _speeds[i]);
         }
 
-        Solved.LastTwist = _sign * _unwrapped[FirstAngle];
+        Solved.RestartTwist(_sign * _unwrapped[FirstAngle]);
     }
 
     // A drive's row knows the goal as a rotation, which it reaches by the shorter way: a goal farther off is led there.
@@ -175,7 +175,7 @@ public sealed class WorldConfigurableJoint : WorldJoint
             _speeds[i] = speed;
         }
 
-        Solved.LastTwist = _sign * _unwrapped[FirstAngle];
+        Solved.RestartTwist(_sign * _unwrapped[FirstAngle]);
     }
 
     internal override void Exchange(StateTape tape)

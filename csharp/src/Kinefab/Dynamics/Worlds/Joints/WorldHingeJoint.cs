@@ -114,7 +114,7 @@ public sealed class WorldHingeJoint : WorldJoint
         double near = Solved.HasCounted(-angle) ? -Solved.LastTwist : _unwrapped + dt * ((1 - endShare) * _speed + endShare * speed);
         _unwrapped = SwingTwist.Nearest(angle, near);
         _speed = speed;
-        Solved.LastTwist = -_unwrapped;
+        Solved.RestartTwist(-_unwrapped);
     }
 
     internal override void Exchange(StateTape tape)

@@ -18,7 +18,7 @@ internal sealed class Substep
     // body falls in the part, over 8.
     private const double LeastFlight = 0.1;
 
-    // Trials of which none may stand before the limit: it is passed from the start on.
+    // Trials of which none may stand before the limit: it is passed from the start on. Not one that has no row there, in its middle, nor a slide's other end.
     private const int MostLate = 3;
 
     // A piece up to a leap is worth its cost from this share of the drift on.
@@ -288,7 +288,7 @@ internal sealed class Substep
             }
 
             bracket.Add(piece, nearest - aim);
-            if (bracket.Early == 0 && trial >= MostLate)
+            if (bracket.Early == 0 && trial >= MostLate && first.IsActive && !first.IsOnOtherSide)
             {
                 isPassedAtOnce = true;
                 return false;

@@ -96,7 +96,7 @@ internal sealed partial class ActiveSet<V>
     /// </summary>
     /// <param name="reach">C up to which a limit counts as reached, m or rad.</param>
     /// <param name="piece">Length of the drift, s.</param>
-    /// <param name="leastFlight">A limit that was struck less than this time ago throws nothing back: bounces that die out come to rest, s.</param>
+    /// <param name="leastFlight">A limit that was struck on the same side less than this time ago throws nothing back: bounces that die out come to rest, s.</param>
     public bool BeginImpact(double reach, double piece, double leastFlight)
     {
         bool isAny = false;
@@ -117,7 +117,7 @@ internal sealed partial class ActiveSet<V>
             bool isLimit = scalar.IsActive && scalar.Built.IsHardLimit;
             if (isLimit)
             {
-                bool isSpent = scalar.Limit.IsApart && scalar.Limit.Flight < leastFlight;
+                bool isSpent = scalar.Limit.IsApart && scalar.Limit.Flight < leastFlight && Vector3d.Dot(scalar.Built.Linear0, scalar.Limit.LeftAlong) >= 0;
                 scalar.Kind = RowKind.Limit;
                 scalar.Limit.IsApart = false;
                 scalar.ImpulseFirstHalf = 0;

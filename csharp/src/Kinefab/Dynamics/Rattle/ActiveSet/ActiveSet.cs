@@ -71,7 +71,7 @@ internal sealed partial class ActiveSet<V>
         for (int i = 0; i < _rows.Length; i++)
         {
             ref ScalarRow scalar = ref _rows[i];
-            scalar.StartError = scalar.Built.GeometricError;
+            scalar.StartError = scalar.IsActive ? scalar.Built.GeometricError : double.PositiveInfinity;
             scalar.End = scalar.IsActive ? scalar.Built : default;
             scalar.ImpulseSecondHalf = 0;
             scalar.PendingImpulse = 0;
@@ -82,6 +82,7 @@ internal sealed partial class ActiveSet<V>
             bool isReached = scalar.Limit.Allowed < 0 || (!scalar.Limit.IsLeft && (scalar.Limit.IsHeldBack || (scalar.StartError <= Reach * tolerance && !IsThrownBack(scalar, tolerance))));
             scalar.Limit.IsApart = LocatesEvents && (!scalar.IsActive || (scalar.Built.Has(RowFlags.Limit) && !isReached));
             scalar.Limit.HasDrawn = false;
+            scalar.Limit.LeftAlong = scalar.StartError <= Reach * tolerance ? scalar.Built.Linear0 : scalar.Limit.LeftAlong;
             scalar.Kind = scalar.Drive.IsHeld ? RowKind.None : scalar.Kind;
             if (scalar.Kind == RowKind.None || scalar.Limit.IsApart)
             {

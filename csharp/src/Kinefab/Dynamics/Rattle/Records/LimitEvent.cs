@@ -1,3 +1,5 @@
+using Kinefab.Numerics;
+
 namespace Kinefab.Dynamics.Rattle;
 
 /// <summary>What a scalar row is as a limit: whether it is reached, left and struck within a step, and how far it may stand passed.</summary>
@@ -11,6 +13,9 @@ internal struct LimitEvent
 
     /// <summary>Time since the joint left its limit, as far as it was in this part of a step; else infinite, s.</summary>
     public double Flight;
+
+    /// <summary>J of body 0's place where the joint last stood at its limit: of a slide's one limit it tells its two ends apart.</summary>
+    public Vector3d LeftAlong;
 
     /// <summary>
     /// Whether a limit is not reached at the start of the step, or has no row there, as in the middle of a cone: the drift is not held by it,

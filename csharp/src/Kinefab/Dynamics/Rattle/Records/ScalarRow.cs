@@ -1,5 +1,6 @@
 using System;
 using Kinefab.Joints;
+using Kinefab.Numerics;
 
 namespace Kinefab.Dynamics.Rattle;
 
@@ -189,6 +190,9 @@ internal struct ScalarRow
         double root = Math.Sqrt(Math.Max(0, square));
         return b > 0 ? -(b + root) / (2 * a) : 2 * c / (root - b);
     }
+
+    /// <summary>Whether the drift led from one side of a limit of place to the other, as from a slide's one end to the other: C of both is one.</summary>
+    public readonly bool IsOnOtherSide => IsActive && HasEnd && Vector3d.Dot(Built.Linear0, End.Linear0) < 0;
 
     /// <param name="h">Step, s.</param>
     /// <param name="areForces">Whether the bounds of the joint's drives are forces, not impulses.</param>

@@ -71,7 +71,7 @@ internal sealed class WatchedLimits<V>
         }
     }
 
-    /// <summary>Whether the drift of a lane ended beyond a limit, or turned a hinge so far that no pose tells whether it did, after <see cref="Measure"/>.</summary>
+    /// <summary>Whether the drift of a lane ended at a limit or beyond it, which is a blow, or turned a hinge so far that no pose tells whether it did, after <see cref="Measure"/>.</summary>
     /// <param name="batch">Placed at the end of the drift.</param>
     /// <param name="lane">The lane.</param>
     /// <param name="tolerance">Largest C, m or rad.</param>
@@ -86,10 +86,12 @@ internal sealed class WatchedLimits<V>
                 continue;
             }
 
+            // What has an axis row may have rested at its limit all along.
+            double least = _shape.Blocks[n].HasAxisRow ? -ActiveSet<V>.MostPassed * tolerance : ActiveSet<V>.Reach * tolerance;
             JointModel joint = batch.Models[n * w + lane]!;
             if (form == WatchForm.Prepared)
             {
-                if (!(LeastLeft(batch, n, joint, lane) >= -ActiveSet<V>.MostPassed * tolerance))
+                if (!(LeastLeft(batch, n, joint, lane) > least))
                 {
                     return true;
                 }
@@ -99,7 +101,7 @@ internal sealed class WatchedLimits<V>
 
             ref double turn = ref _turns[2 * n * w + lane];
             turn = SwingTwist.Nearest(turn, joint.LastTwist);
-            if (!(Math.Abs(turn - joint.LastTwist) <= MostTurn) || (form == WatchForm.Twist && !(HingeRange.LeftOf(joint, turn) >= -ActiveSet<V>.MostPassed * tolerance)))
+            if (!(Math.Abs(turn - joint.LastTwist) <= MostTurn) || (form == WatchForm.Twist && !(HingeRange.LeftOf(joint, turn) > least)))
             {
                 return true;
             }

@@ -16,6 +16,10 @@ internal sealed class BetweenStopsTests
     [TestCase(0.6, 0.02, 1e-3, 12)]
     public void Slide_InANarrowGap_IsThrownToAndFro(double bounciness, double dt, double gap, int steps) => Fly(isSlide: true, bounciness, dt, gap, steps);
 
+    /// <summary>It comes to its stop as the step ends, to the bit or nearly, and stands there for no step.</summary>
+    [Test]
+    public void Joint_ReachingItsStopAsAStepEnds_IsThrownBackThere([Values] bool isSlide, [Values(1.0, 0.5)] double bounciness) => Fly(isSlide, bounciness, 0.02, 0.5, 60);
+
     private static void Fly(bool isSlide, double bounciness, double dt, double gap, int steps)
     {
         World world = SmallScene.Create(isSlide ? Slide(gap, bounciness) : Hinge(gap, bounciness), solver: SolverKind.Exact);

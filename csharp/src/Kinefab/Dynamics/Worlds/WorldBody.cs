@@ -83,8 +83,7 @@ public sealed class WorldBody
         get => _bodies.Poses[_index] * _localInverse;
         set
         {
-            if (IsLink && !_scene.IsRootLink(GameObject))
-                throw new InvalidOperationException("A link's pose follows from its joints: set its joint's position, or the root's pose.");
+            ThrowIfFollowing("pose", "position");
             Pose pose = Checked(value) * _local;
             Pose way = pose * _bodies.Poses[_index].Inverse();
             _bodies.Poses[_index] = pose;
@@ -105,20 +104,30 @@ public sealed class WorldBody
     /// <summary>Centre of mass in the world, metres.</summary>
     public Vector3d CenterOfMass => _bodies.Poses[_index].Position;
 
-    /// <summary>Velocity of the centre of mass, world frame, m/s.</summary>
+    /// <summary>Velocity of the centre of mass, world frame, m/s. It can be set of the root of an articulation, not of its other links.</summary>
     /// <exception cref="ArgumentOutOfRangeException">A component is no number.</exception>
+    /// <exception cref="InvalidOperationException">It is set of a link that is no root.</exception>
     public Vector3d LinearVelocity
     {
         get => _bodies.LinearVelocities[_index];
-        set => _bodies.LinearVelocities[_index] = value.FiniteOrThrow(nameof(value));
+        set
+        {
+            ThrowIfFollowing("velocity", "speed");
+            _bodies.LinearVelocities[_index] = value.FiniteOrThrow(nameof(value));
+        }
     }
 
-    /// <summary>World frame, rad/s.</summary>
+    /// <summary>World frame, rad/s. It can be set of the root of an articulation, not of its other links.</summary>
     /// <exception cref="ArgumentOutOfRangeException">A component is no number.</exception>
+    /// <exception cref="InvalidOperationException">It is set of a link that is no root.</exception>
     public Vector3d AngularVelocity
     {
         get => _bodies.AngularVelocities[_index];
-        set => _bodies.AngularVelocities[_index] = value.FiniteOrThrow(nameof(value));
+        set
+        {
+            ThrowIfFollowing("velocity", "speed");
+            _bodies.AngularVelocities[_index] = value.FiniteOrThrow(nameof(value));
+        }
     }
 
     /// <summary>Whether it is a link of an articulation (an ArticulationBody): its pose follows from its joints, but for a root's.</summary>
@@ -156,6 +165,12 @@ public sealed class WorldBody
         FormattableString.Invariant($"{Id}{(IsKinematic ? ", kinematic" : FormattableString.Invariant($", {_settings.Mass} kg"))} at {Pose}, {LinearVelocity} m/s, {AngularVelocity} rad/s");
 
     internal void Exchange(StateTape tape) => tape.Value(ref _settings);
+
+    private void ThrowIfFollowing(string what, string ofJoint)
+    {
+        if (IsLink && !_scene.IsRootLink(GameObject))
+            throw new InvalidOperationException($"A link's {what} follows from its joints: set its joint's {ofJoint}, or the root's {what}.");
+    }
 
     private static Pose Checked(Pose value)
     {

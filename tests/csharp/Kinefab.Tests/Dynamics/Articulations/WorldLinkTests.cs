@@ -201,6 +201,20 @@ public sealed class WorldLinkTests
         }
     }
 
+    // In unity a link's velocities follow from its joints' speeds, and what was set was lost.
+    [TestCase(SolverKind.Unity)]
+    [TestCase(SolverKind.Exact)]
+    public void Velocities_OfALink_AreSetOfTheRootAlone(SolverKind solver)
+    {
+        World world = LinkScene.World(solver, LinkScene.Link(Revolute));
+        using (Assert.EnterMultipleScope())
+        {
+            Assert.That(() => world.Body("L1").LinearVelocity = Vector3d.UnitX, Throws.InvalidOperationException.With.Message.Contains("set its joint's speed"));
+            Assert.That(() => world.Body("L1").AngularVelocity = Vector3d.UnitX, Throws.InvalidOperationException);
+            Assert.That(() => world.Body("L0").LinearVelocity = Vector3d.UnitX, Throws.Nothing);
+        }
+    }
+
     [TestCase(SolverKind.Unity)]
     [TestCase(SolverKind.Exact)]
     public void AddForce_OnACoordinate_HoldsTheWeight(SolverKind solver)

@@ -50,14 +50,12 @@ internal static class UnityJoints
         Common(hinge, joint, swap: false);
         joint.ExtendedLimits = hinge.ExtendedLimits;
 
-        // Unity cuts what is beyond half a turn, or a whole one where the limits are extended (ScriptReference, HingeJoint.limits).
         JointLimits limits = hinge.Limits;
-        double reach = hinge.ExtendedLimits ? 360 : 180;
         joint.LimitEnabled = hinge.UseLimits;
         joint.Limit = new AngularLimit
         {
-            Lower = -Math.Max(-reach, Math.Min(reach, limits.Max)) * Radians,
-            Upper = -Math.Max(-reach, Math.Min(reach, limits.Min)) * Radians,
+            Lower = -hinge.Cut(limits.Max) * Radians,
+            Upper = -hinge.Cut(limits.Min) * Radians,
             Response = new LimitResponse
             {
                 Restitution = limits.Bounciness,

@@ -14,7 +14,7 @@ internal static class JointFreedoms
         {
             case HingeJoint hinge:
                 freedoms.Add(hinge.UseLimits
-                    ? new JointFreedom(Coordinate.Angle, hinge.Limits.Min, hinge.Limits.Max)
+                    ? new JointFreedom(Coordinate.Angle, hinge.Cut(hinge.Limits.Min), hinge.Cut(hinge.Limits.Max))
                     : Free(Coordinate.Angle));
                 break;
             case ConfigurableJoint configurable:

@@ -42,6 +42,15 @@ public class ValidSceneTests
         Assert.That(SceneValidator.Validate(document).Report.Diagnostics.Select(found => found.Code), Does.Contain(DiagnosticCodes.RendererMaterialCount));
     }
 
+    [TestCase(false, 180)]
+    [TestCase(true, 270)]
+    public void Freedoms_OfAHingeBeyondHalfATurn_AreWhatUnityTakes(bool isExtended, double upper)
+    {
+        ValidScene scene = Validate(new GameObject { Id = "a", Components = [new Rigidbody(), new HingeJoint { UseLimits = true, ExtendedLimits = isExtended, Limits = new JointLimits { Min = -20, Max = 270 } }] });
+        JointFreedom found = scene.Freedoms(0, 1).Single();
+        Assert.That((found.Lower, found.Upper), Is.EqualTo((-20.0, upper)));
+    }
+
     [Test]
     public void BodyOf_ColliderBelowABody_IsTheNearestAncestorsBody()
     {

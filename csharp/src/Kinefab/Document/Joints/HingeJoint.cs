@@ -1,3 +1,5 @@
+using System;
+
 namespace Kinefab.Document;
 
 /// <summary>
@@ -29,6 +31,9 @@ public sealed partial record HingeJoint : AnchoredJoint
 
     /// <summary>The spring gives an angular acceleration instead of a torque.</summary>
     public bool UseAcceleration { get; init; }
+
+    /// <summary>A limit as Unity takes it, which cuts what is beyond half a turn, or a whole one where the limits are extended (ScriptReference, HingeJoint.limits).</summary>
+    internal double Cut(double limit) => Math.Max(ExtendedLimits ? -360 : -180, Math.Min(ExtendedLimits ? 360 : 180, limit));
 
     private protected override string Describe() => $"HingeJoint {Ends}{(UseLimits ? $", {Limits}" : "")}{(UseMotor ? $", {Motor}" : UseSpring ? $", {Spring}" : "")}";
 }

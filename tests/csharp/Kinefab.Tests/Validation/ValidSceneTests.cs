@@ -51,6 +51,17 @@ public class ValidSceneTests
         Assert.That((found.Lower, found.Upper), Is.EqualTo((-20.0, upper)));
     }
 
+    [TestCase(0, double.NaN)]
+    [TestCase(0, double.NegativeInfinity)]
+    [TestCase(1, double.PositiveInfinity)]
+    public void Validate_AnAnimationsTimeThatIsNone_IsAnError(int at, double time)
+    {
+        double[] times = [0, 1];
+        times[at] = time;
+        var document = new SceneDocument { GameObjects = [new GameObject { Id = "a" }], Animations = [new AnimationClip { Name = "clip", Times = at == 0 ? times[..1] : times }] };
+        Assert.That(SceneValidator.Validate(document).Report.Diagnostics.Select(found => (found.Code, found.Pointer)), Is.EqualTo([(DiagnosticCodes.NumberNotFinite, $"/animations/0/times/{at}")]));
+    }
+
     [Test]
     public void BodyOf_ColliderBelowABody_IsTheNearestAncestorsBody()
     {

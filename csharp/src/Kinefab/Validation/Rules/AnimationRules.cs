@@ -38,6 +38,15 @@ internal static class AnimationRules
 
     private static void Times(AnimationClip clip, in Place at)
     {
+        for (int i = 0; i < clip.Times.Count; i++)
+        {
+            if (!Numerics.Finite.Is(clip.Times[i]))
+            {
+                NumberRules.Finite(at, "times/" + Invariant.Text(i), clip.Times[i]);
+                return;
+            }
+        }
+
         for (int i = 1; i < clip.Times.Count; i++)
         {
             if (!(clip.Times[i] > clip.Times[i - 1]))

@@ -209,6 +209,18 @@ public class SceneSavingTests
         }
     }
 
+    // A hash that was stated for other bytes made a file that does not validate.
+    [Test]
+    public void Save_BytesThatTookTheOldOnesPlaceInABuffer_HaveTheirOwnHash([Values] SceneContainer container)
+    {
+        using var folder = new Folder();
+        string path = folder.Of("a.kinefab");
+        SceneFile.Save(new SceneDocument { Container = container, Buffers = [new SceneBuffer { Data = new byte[] { 1, 2, 3, 4 } }] }, path);
+        SceneDocument read = SceneFile.Load(path).Document!;
+        SceneFile.Save(read with { Buffers = [read.Buffers[0] with { Data = new byte[] { 5, 6, 7, 8 } }] }, path);
+        Assert.That(ValidScene.Load(path).Document.Buffers[0].Data!.Value.ToArray(), Is.EqualTo(new byte[] { 5, 6, 7, 8 }));
+    }
+
     [Test]
     public void Save_ThroughALink_WritesWhereItLeads()
     {

@@ -15,6 +15,9 @@ public sealed partial record SceneBuffer : DocumentObject
 
     private ReadOnlyMemory<byte>? data;
 
+    // By a program: whatever hash is stated may be that of other bytes.
+    private bool isGiven;
+
     /// <summary>File name relative to the scene's folder; never absolute, never with "..". Null: the buffer lies in the scene's own file.</summary>
     public string? Uri { get; init; }
 
@@ -31,7 +34,11 @@ public sealed partial record SceneBuffer : DocumentObject
     public ReadOnlyMemory<byte>? Data
     {
         get => data;
-        init => data = value;
+        init
+        {
+            data = value;
+            isGiven = true;
+        }
     }
 
     /// <summary>Why there is no <see cref="Data"/>; null: nobody looked for it.</summary>
@@ -43,12 +50,13 @@ public sealed partial record SceneBuffer : DocumentObject
     internal void Attach(ReadOnlyMemory<byte>? bytes, string? fault = null, long foundLength = -1)
     {
         data = bytes;
+        isGiven = false;
         Fault = fault;
         FoundLength = foundLength;
     }
 
-    /// <summary>With the size of its data; what is stated as their hash is kept.</summary>
-    internal SceneBuffer Stated() => this with { ByteLength = data!.Value.Length, Sha256 = Sha256.Length > 0 ? Sha256 : Hash(data.Value.Span) };
+    /// <summary>With the size and hash of its data; of data that were read the hash stays that which was stated.</summary>
+    internal SceneBuffer Stated() => this with { ByteLength = data!.Value.Length, Sha256 = Sha256.Length > 0 && !isGiven ? Sha256 : Hash(data.Value.Span) };
 
     /// <summary>SHA-256, 64 lower-case hexadecimal digits.</summary>
     internal static string Hash(ReadOnlySpan<byte> bytes, CancellationToken cancellation = default)

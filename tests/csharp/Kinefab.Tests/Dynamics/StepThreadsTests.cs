@@ -103,6 +103,15 @@ public sealed class StepThreadsTests
         Assert.That(parts.Done, Is.All.EqualTo(3));
     }
 
+    [Test]
+    public void ForEach_WithinAPart_DoesItsPartsByItself()
+    {
+        var inner = new Counted(100);
+        var outer = new Nested(inner);
+        StepThreads.ForEach(outer, 64, 3);
+        Assert.That((outer.Done, inner.Done.Distinct().Single()), Is.EqualTo((64, 64)));
+    }
+
     // The threads help one world at a time.
     [Test]
     public void ForEach_FromSeveralThreadsAtOnce_DoesAllParts()
@@ -158,6 +167,19 @@ public sealed class StepThreadsTests
         }
 
         return builder.Build();
+    }
+
+    private sealed class Nested(Counted inner) : IStepParts
+    {
+        private int _done;
+
+        public int Done => _done;
+
+        public void Do(int part)
+        {
+            StepThreads.ForEach(inner, 100, 3);
+            Interlocked.Increment(ref _done);
+        }
     }
 
     private sealed class Counted(int count) : IStepParts

@@ -42,7 +42,8 @@ internal static class StepThreads
     public static void ForEach(IStepParts work, int count, int threads)
     {
         int helpers = Math.Min(threads, count) - 1;
-        if (helpers < 1 || !Monitor.TryEnter(Gate))
+        // A part that comes here again on the caller's thread would be let in, and take the numbers of the parts around it.
+        if (helpers < 1 || Monitor.IsEntered(Gate) || !Monitor.TryEnter(Gate))
         {
             for (int part = 0; part < count; part++)
             {

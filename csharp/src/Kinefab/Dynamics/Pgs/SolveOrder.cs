@@ -92,21 +92,34 @@ internal sealed class SolveOrder
             }
         }
 
-        _count = 0;
+        // By partitions, in each by number: a star to the ground has as many partitions as joints.
+        var next = new int[partitions + 1];
+        for (int i = 0; i < _partition.Length; i++)
+        {
+            if (IsSwept(i))
+            {
+                next[_partition[i] + 1]++;
+            }
+        }
+
         for (int p = 0; p < partitions; p++)
         {
-            for (int i = 0; i < _partition.Length; i++)
+            next[p + 1] += next[p];
+        }
+
+        _count = next[partitions];
+        for (int i = 0; i < _partition.Length; i++)
+        {
+            if (IsSwept(i))
             {
-                JointModel joint = _mechanism.Joints[i];
-                if (_partition[i] == p && IsHere(i) && (Moves(joint.Body0) || Moves(joint.Body1)))
-                {
-                    _order[_count++] = i;
-                }
+                _order[next[_partition[i]]++] = i;
             }
         }
 
         MakeParts();
     }
+
+    private bool IsSwept(int i) => IsHere(i) && (Moves(_mechanism.Joints[i].Body0) || Moves(_mechanism.Joints[i].Body1));
 
     private void MakeParts()
     {

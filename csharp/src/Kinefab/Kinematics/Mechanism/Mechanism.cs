@@ -24,6 +24,7 @@ public sealed partial class Mechanism
     private readonly Pose[] _locals;
     private readonly Pose[] _start;
     private readonly MechanismCoordinate[] _coordinates;
+    private readonly Dictionary<(int GameObject, int Component, Coordinate Coordinate), int> _coordinateAt = new();
     private readonly CoordinateNames _names;
 
     private Mechanism(ValidScene scene)
@@ -90,6 +91,7 @@ public sealed partial class Mechanism
         for (int i = 0; i < _coordinates.Length; i++)
         {
             _coordinates[i].TakeName(_names, i);
+            _coordinateAt[(_coordinates[i].GameObject, _coordinates[i].Component, _coordinates[i].Coordinate)] = i;
         }
 
         PositionCoupling[] couplings = PositionCoupling.Of(scene.Document.Couplings, _coordinates);
@@ -162,17 +164,8 @@ public sealed partial class Mechanism
     /// <param name="component">Index of the joint among its components.</param>
     /// <param name="coordinate">Which of the joint's motions.</param>
     /// <returns>An index, or -1.</returns>
-    public int FindCoordinate(int gameObject, int component, Coordinate coordinate)
-    {
-        for (int i = 0; i < _coordinates.Length; i++)
-        {
-            MechanismCoordinate c = _coordinates[i];
-            if (c.GameObject == gameObject && c.Component == component && c.Coordinate == coordinate)
-                return i;
-        }
-
-        return -1;
-    }
+    public int FindCoordinate(int gameObject, int component, Coordinate coordinate) =>
+        _coordinateAt.TryGetValue((gameObject, component, coordinate), out int found) ? found : -1;
 
     /// <summary>
     /// Finds a coordinate by what the source calls its joint (Shaft), else by its GameObject's id or name

@@ -31,6 +31,8 @@ namespace KinefabUnity
 
         private static readonly List<KinefabMechanism> Enabled = new List<KinefabMechanism>();
 
+        private readonly Dictionary<Transform, int> _places = new Dictionary<Transform, int>();
+
         [SerializeField] private KinefabSource source;
         [SerializeField] private Transform[] parts = Array.Empty<Transform>();
         [SerializeField] private KinefabFreedom[] freedoms = Array.Empty<KinefabFreedom>();
@@ -46,6 +48,7 @@ namespace KinefabUnity
         [NonSerialized] private JointTargets _targets;
         [NonSerialized] private string _fault;
         [NonSerialized] private int _packedMoves;
+        [NonSerialized] private Transform[] _placesOf;
         [NonSerialized] private bool _isStale;
         [NonSerialized] private bool _isLetGo;
         [NonSerialized] private KinefabStop _lastStop;
@@ -211,13 +214,31 @@ namespace KinefabUnity
 
         internal MotionState Motion => IsReady() ? _motion : null;
 
+        // Made anew where Unity has given the component other parts.
+        private Dictionary<Transform, int> Places()
+        {
+            if (!ReferenceEquals(_placesOf, parts))
+            {
+                _placesOf = parts;
+                _places.Clear();
+                for (int i = parts.Length - 1; i >= 0; i--)
+                {
+                    if (parts[i] != null)
+                    {
+                        _places[parts[i]] = i;
+                    }
+                }
+            }
+
+            return _places;
+        }
+
         // The part that a body moves, on or above a Transform.
         private int CarrierOf(Transform part, out Transform carrier)
         {
             for (Transform at = part; at != null; at = at.parent)
             {
-                int index = Array.IndexOf(parts, at);
-                if (index >= 0)
+                if (Places().TryGetValue(at, out int index))
                 {
                     int body = carriers[index];
                     carrier = body >= 0 ? parts[body] : null;

@@ -100,6 +100,21 @@ public sealed class MechanismHandsTests
         Unity.Object.DestroyImmediate(parent);
     }
 
+    // Unity counts a link's position from where its anchors meet, whatever the pose in the file.
+    [Test]
+    public void Mover_JointDrives_OfALinkWhoseAnchorsStandApart_CountsFromWhereTheyMeet()
+    {
+        string apart = Slides.Replace("\"xDrive\": {\"damping\": 5", "\"parentAnchorPosition\": [-0.1, 0, 0], \"xDrive\": {\"damping\": 5", StringComparison.Ordinal);
+        using var played = new PlayedMechanism(Written(apart), KinefabPhysics.AsExported);
+        foreach (KinefabFreedom freedom in played.Component.Freedoms)
+            played.Component.Drive(freedom.FullName, 0.2);
+        played.Frame();
+        Unity.ArticulationBody link = played.Part("link").GetComponent<Unity.ArticulationBody>();
+        Assert.That(link.jointPosition[0], Is.EqualTo(0.3f).Within(1e-6));
+        played.Component.Mover = KinefabMover.JointDrives;
+        Assert.That(link.xDrive.target, Is.EqualTo(0.3f).Within(1e-6));
+    }
+
     // A damper that wants the speed of a motor would hold the spring beyond its target.
     [Test]
     public void Mover_JointDrives_StandsWhereItIsSentAndGivesSpeedsBack()

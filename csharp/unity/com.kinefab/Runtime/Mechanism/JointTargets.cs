@@ -39,7 +39,7 @@ namespace KinefabUnity
                     ArticulationBody link = part.GetComponent<ArticulationBody>();
                     if (link != null)
                     {
-                        Add(freedom.Coordinate, coordinate.Coordinate, link);
+                        Add(freedom.Coordinate, coordinate.Coordinate, link, LinkPositions.Home(mechanism, coordinate));
                         continue;
                     }
                 }
@@ -75,7 +75,7 @@ namespace KinefabUnity
                 double value = motion.State.Coordinate(driven.Index) * (coordinate.IsAngle ? 1 : scale);
                 if (driven.Link != null)
                 {
-                    Aim(driven.Link, driven.Coordinate, value);
+                    Aim(driven.Link, driven.Coordinate, value + driven.Zero * (coordinate.IsAngle ? 180 / Math.PI : scale));
                 }
                 else if (driven.Joint is HingeJoint hinge)
                 {
@@ -210,7 +210,7 @@ namespace KinefabUnity
             });
         }
 
-        private void Add(int index, Doc.Coordinate coordinate, ArticulationBody link)
+        private void Add(int index, Doc.Coordinate coordinate, ArticulationBody link, double zero)
         {
             ArticulationDrive x = link.xDrive, y = link.yDrive, z = link.zDrive;
             _back.Insert(0, () =>
@@ -235,7 +235,7 @@ namespace KinefabUnity
                 link.xDrive = Own(x);
             }
 
-            _all.Add(new Driven { Index = index, Coordinate = coordinate, Link = link });
+            _all.Add(new Driven { Index = index, Coordinate = coordinate, Link = link, Zero = zero });
         }
 
         private static JointDrive Own(JointDrive drive)

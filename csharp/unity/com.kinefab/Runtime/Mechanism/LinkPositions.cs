@@ -30,14 +30,29 @@ namespace KinefabUnity
                 if (at < parts.Length && parts[at] != null
                     && mechanism.Scene.Document.GameObjects[at].Components[coordinate.Component] is Doc.ArticulationBody from
                     && from.JointType != Doc.ArticulationJointType.Spherical
-                    && mechanism.Scene.Document.GameObjects[at].Parent is int above && mechanism.Scene.BodyOf(above) is int parent)
+                    && mechanism.Scene.Document.GameObjects[at].Parent is int above && mechanism.Scene.BodyOf(above) is int)
                 {
-                    Pose joint = Frame(mechanism.Scene, parent, from.ParentAnchorPosition, from.ParentAnchorRotation).Inverse()
-                        * Frame(mechanism.Scene, at, from.AnchorPosition, from.AnchorRotation);
-                    double home = coordinate.IsAngle ? 2 * Math.Atan2(joint.Rotation.X, joint.Rotation.W) : joint.Position.X;
-                    _links.Add(new Link { Body = parts[at].GetComponent<ArticulationBody>(), Coordinate = i, IsAngle = coordinate.IsAngle, Home = home });
+                    _links.Add(new Link { Body = parts[at].GetComponent<ArticulationBody>(), Coordinate = i, IsAngle = coordinate.IsAngle, Home = Home(mechanism, coordinate) });
                 }
             }
+        }
+
+        /// <summary>
+        /// A link's coordinate as Unity counts it at the pose in the file, from where its anchors meet: radians or metres of the scene; 0 of a root.
+        /// </summary>
+        public static double Home(Mechanism mechanism, MechanismCoordinate coordinate)
+        {
+            Doc.GameObject own = mechanism.Scene.Document.GameObjects[coordinate.GameObject];
+            if (!(own.Components[coordinate.Component] is Doc.ArticulationBody link && own.Parent is int above && mechanism.Scene.BodyOf(above) is int parent))
+            {
+                return 0;
+            }
+
+            Pose joint = Frame(mechanism.Scene, parent, link.ParentAnchorPosition, link.ParentAnchorRotation).Inverse()
+                * Frame(mechanism.Scene, coordinate.GameObject, link.AnchorPosition, link.AnchorRotation);
+            return coordinate.IsAngle
+                ? 2 * Math.Atan2(joint.Rotation.Vector[coordinate.Coordinate - Doc.Coordinate.AngularX], joint.Rotation.W)
+                : joint.Position.X;
         }
 
         public void TakeHold()

@@ -32,6 +32,8 @@ internal sealed class RecordedTrajectory
         At = Numbers(IsDriven ? driver.GetProperty("values") : file.GetProperty("times"));
         Bodies = file.GetProperty("bodies").EnumerateArray()
             .Select(body => (body.GetProperty("id").GetString()!, body.GetProperty("poses").EnumerateArray().Select(PoseOf).ToArray())).ToList();
+        if (Bodies.Count == 0 || At.Length == 0)
+            throw new InvalidDataException($"It has no {(Bodies.Count == 0 ? "bodies" : IsDriven ? "values" : "times")}, and would hold of any motion.");
         if (Bodies.Any(body => body.Poses.Length != At.Length))
             throw new InvalidDataException("A body has not one pose for each time or value.");
     }

@@ -141,6 +141,24 @@ public sealed class ConstraintTests
         }
     }
 
+    // It held of any motion.
+    [TestCase("[0, 0.02]", "bodies")]
+    [TestCase("[]", "times")]
+    public void Trajectory_OfNothing_IsNone(string times, string what)
+    {
+        string file = Path.Combine(Path.GetTempPath(), Path.GetRandomFileName());
+        string bodies = what == "times" ? """{"gameObject": 0, "id": "Lever/Crank:1", "poses": []}""" : "";
+        File.WriteAllText(file, $$"""{"format": "kinefab.trajectory", "version": "1.0", "solver": "exact", "step": 0.02, "times": {{times}}, "coordinates": [], "bodies": [{{bodies}}]}""");
+        try
+        {
+            Assert.That(Failure(Lever, Matches.Trajectory(file)), Does.Contain($"But was:  {file} is no trajectory of dotnet kinefab: It has no {what}, and would hold of any motion."));
+        }
+        finally
+        {
+            File.Delete(file);
+        }
+    }
+
     [TestCase("0")]
     [TestCase("-0.02")]
     [TestCase("1e999")]

@@ -7,6 +7,7 @@ using System.Text;
 using System.Text.Json.Nodes;
 using System.Text.RegularExpressions;
 using Kinefab.Advice;
+using Kinefab.Advice.Changes;
 using Kinefab.Diagnostics;
 using Kinefab.Document;
 using Kinefab.Validation;
@@ -218,6 +219,16 @@ public sealed class StabilityAdviceTests
             tried.Edits.Select(e => (e.Pointer, e.Value)),
             Is.EqualTo([("/physics/solverIterations", "24"), ("/gameObjects/7/components/0/solverIterations", "24")]));
         Assert.That(tried.Work, Is.EqualTo(25.0 / 13).Within(1e-12), "position and velocity iterations");
+    }
+
+    // A link has no Rigidbody whose number could be set.
+    [Test]
+    public void Iterations_OfALinksOwn_AreCalledTheLinks()
+    {
+        ValidScene arm = Dynamics.Articulations.LinkScene.Scene(
+            Dynamics.Articulations.LinkScene.Base, Dynamics.Articulations.LinkScene.Link(ArticulationJointType.Revolute) with { SolverIterations = 12 });
+        ChangePart[] parts = [.. ProjectSettings.SolverIterations(arm, 2)!.Parts];
+        Assert.That(parts[1].What, Is.EqualTo("ArticulationBody.solverIterations -> 24"));
     }
 
     [Test]

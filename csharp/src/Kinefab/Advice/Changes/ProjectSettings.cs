@@ -35,7 +35,7 @@ internal static class ProjectSettings
             int component = scene.Document.GameObjects[i].Components.ToList().FindIndex(c => c is Rigidbody or ArticulationBody);
             parts.Add(new ChangePart(
                 i,
-                $"Rigidbody.solverIterations -> {value}",
+                $"{scene.Document.GameObjects[i].Components[component].GetType().Name}.solverIterations -> {value}",
                 scene.Document.GameObjects[i].Id,
                 new SceneEdit(EditText.Component(i, component) + "/solverIterations", value)));
         }

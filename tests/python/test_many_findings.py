@@ -6,6 +6,7 @@ import json
 
 import pytest
 from command_line import run
+from kinefab.cli.console import MOST_WARNINGS
 from kinefab.diagnostics import (
     MOST_ALIKE,
     MOST_NAMES,
@@ -56,6 +57,20 @@ def test_the_command_line_prints_the_first_and_reports_all(tmp_path):
     assert len(done.stderr.splitlines()) < MOST_ALIKE + 10
     assert f"{COUNT - MOST_ALIKE} more findings are not listed" in done.stderr
     assert json.loads(report.read_text("utf-8"))["errors"] == COUNT
+
+
+def test_the_command_line_prints_eight_warnings_of_a_kind_unless_remarks_are_asked_for(tmp_path):
+    """A robot has one of each kind for each of its links; errors are all wanted."""
+    source, report = tmp_path / "odd.bundle.json", tmp_path / "report.json"
+    cams = [{"id": f"Cam:{i}", "kind": "cam", "a": {"component": "A", "geometry": "body"}} for i in range(30)]
+    source.write_text(json.dumps(bundle(part("A"), constraints=cams)), "utf-8")
+    call = "export", source, "-o", tmp_path / "odd.kinefab", "--report", report
+    done = run(*call)
+    assert done.stderr.count("warning CONSTRAINT_KIND_UNKNOWN:") == MOST_WARNINGS
+    assert "CONSTRAINT_KIND_UNKNOWN: warning FINDINGS_OMITTED: 22 more findings are not listed. --json lists all" in done.stderr
+    assert run("-v", *call).stderr.count("warning CONSTRAINT_KIND_UNKNOWN:") == 30
+    told = [found["code"] for found in json.loads(report.read_text("utf-8"))["diagnostics"]]
+    assert told.count("CONSTRAINT_KIND_UNKNOWN") == 30
 
 
 def test_a_message_lists_some_names_and_how_many_more():

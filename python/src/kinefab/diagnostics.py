@@ -130,19 +130,23 @@ MOST_ALIKE = 100
 """Findings of one code that a text lists."""
 
 
-def listed(found: Iterable[Diagnostic]) -> list[Diagnostic]:
-    """The findings as people read them: of one code the first ``MOST_ALIKE``, and at the end how many more there are."""
+def listed(found: Iterable[Diagnostic], most_warnings: int = MOST_ALIKE, remedy: str = "") -> list[Diagnostic]:
+    """The findings as people read them: of one code the first ``MOST_ALIKE``, and at the end how many more there are.
+
+    most_warnings: instead, of those that are no errors.  remedy: where these can all be had; without it the table's.
+    """
     shown: list[Diagnostic] = []
-    more: dict[str, list[Diagnostic]] = {}
+    counts: dict[tuple[str, Severity], int] = {}
     for entry in found:
-        alike = more.setdefault(entry.code, [])
-        alike.append(entry)
-        if len(alike) <= MOST_ALIKE:
+        alike = entry.code, entry.severity
+        counts[alike] = counts.get(alike, 0) + 1
+        if counts[alike] <= (MOST_ALIKE if entry.severity is Severity.ERROR else most_warnings):
             shown.append(entry)
-    for code, alike in more.items():
-        if len(alike) > MOST_ALIKE:
-            left = diagnostic("FINDINGS_OMITTED", code, count=len(alike) - MOST_ALIKE)
-            shown.append(replace(left, severity=alike[0].severity))
+    for (code, severity), count in counts.items():
+        most = MOST_ALIKE if severity is Severity.ERROR else most_warnings
+        if count > most:
+            left = replace(diagnostic("FINDINGS_OMITTED", code, count=count - most), severity=severity)
+            shown.append(left if severity is Severity.ERROR or not remedy else replace(left, remedy=remedy))
     return shown
 
 

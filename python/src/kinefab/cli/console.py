@@ -14,7 +14,7 @@ from typing import NoReturn
 
 import typer
 
-from ..diagnostics import KinefabError, Report, Severity, diagnostic, listed, printable
+from ..diagnostics import MOST_ALIKE, KinefabError, Report, Severity, diagnostic, listed, printable
 from ..replacing import why_unwritable, write_whole
 from .findings import findings_document
 
@@ -51,12 +51,18 @@ def remark(text: str) -> None:
         typer.echo(text, err=True)
 
 
+MOST_WARNINGS = 8
+"""Warnings of one code that are listed unless remarks are asked for too: a robot has one for each of its links."""
+
+
 def log(report: Report) -> None:
-    """Findings on stderr, one a line, coloured on a terminal; of thousands that are alike the first ones."""
+    """Findings on stderr, one a line, coloured on a terminal; of many that are alike the first ones, and how many more."""
     least = {1: 0, 0: 1, -1: 2}[verbosity]
     rank = {Severity.INFO: 0, Severity.WARNING: 1, Severity.ERROR: 2}
     style = {Severity.INFO: "dim", Severity.WARNING: "yellow", Severity.ERROR: "red"}
-    shown = [found for found in listed(report.diagnostics) if rank[found.severity] >= least]
+    most = MOST_ALIKE if verbosity > 0 else MOST_WARNINGS
+    where = "--json lists all, where the command has it" + ("." if verbosity > 0 else f"; kinefab -v the first {MOST_ALIKE}.")
+    shown = [found for found in listed(report.diagnostics, most, where) if rank[found.severity] >= least]
     if not shown:  # nor is there a reason to wait for rich
         return
     from rich.console import Console

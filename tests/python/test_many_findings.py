@@ -6,11 +6,13 @@ import json
 
 import pytest
 from command_line import run
+from kinefab import export
 from kinefab.cli.console import MOST_WARNINGS
 from kinefab.diagnostics import (
     MOST_ALIKE,
     MOST_NAMES,
     KinefabError,
+    Outcome,
     Report,
     chained,
     diagnostic,
@@ -71,6 +73,26 @@ def test_the_command_line_prints_eight_warnings_of_a_kind_unless_remarks_are_ask
     assert run("-v", *call).stderr.count("warning CONSTRAINT_KIND_UNKNOWN:") == 30
     told = [found["code"] for found in json.loads(report.read_text("utf-8"))["diagnostics"]]
     assert told.count("CONSTRAINT_KIND_UNKNOWN") == 30
+
+
+def test_what_a_reader_does_not_understand_is_told_once(tmp_path):
+    """The analysis, which cannot interpret it either, says nothing more."""
+    source = tmp_path / "odd.bundle.json"
+    cam = {"id": "Cam", "kind": "cam", "a": {"component": "A", "geometry": "body"}}
+    side = {"component": "A", "geometry": "blob"}
+    blob = {"id": "Blob", "kind": "coincident", "a": side, "b": {**side, "component": "B"}}
+    other = {"id": "Other", "kind": "other", "a": {"component": "A", "geometry": "body"}}
+    source.write_text(json.dumps(bundle(part("A"), part("B"), constraints=[cam, blob, other])), "utf-8")
+    found = export(source, tmp_path / "odd.kinefab").report
+    told = [(d.code, d.where.rpartition("#")[2]) for d in found.diagnostics if d.code.startswith("CONSTRAINT")]
+    assert told == [
+        ("CONSTRAINT_KIND_UNKNOWN", "/constraints/0/kind"),
+        ("CONSTRAINT_GEOMETRY_UNKNOWN", "/constraints/1/a/geometry"),
+        ("CONSTRAINT_GEOMETRY_UNKNOWN", "/constraints/1/b/geometry"),
+        ("CONSTRAINT_NOT_INTERPRETED", "/constraints/2"),
+    ]
+    became = {o.feature: o.outcome for o in found.outcomes if o.feature.startswith("constraint")}
+    assert set(became.values()) == {Outcome.DROPPED} and len(became) == 3
 
 
 def test_a_message_lists_some_names_and_how_many_more():

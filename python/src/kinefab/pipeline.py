@@ -162,7 +162,7 @@ def analysed(scene: Scene, options: ExportOptions, report: Report, progress: Pro
     found = analyse(
         scene, AnalysisOptions(options.closures, options.limits), lambda done: progress("limits", done)
     )
-    report.extend(found.report)
+    report.extend(_untold(found.report, report))
     _tell_unjoined(found, report)
     exported = with_helpers(found.scene(options.solve))
     together = [*found.fixed, *found.built]
@@ -173,6 +173,20 @@ def analysed(scene: Scene, options: ExportOptions, report: Report, progress: Pro
     exported = with_mated_apart(exported, groups)
     progress("analyse", 1.0)
     return Analysed(found, exported, groups)
+
+
+UNREAD = frozenset("CONSTRAINT_KIND_UNKNOWN CONSTRAINT_GEOMETRY_UNKNOWN".split())
+"""What a reader tells of a constraint that it does not understand."""
+
+
+def _untold(found: Report, report: Report) -> Report:
+    """What an analysis found, without that it does not interpret a constraint of which the reader said why."""
+    unread = {o.feature for o in report.outcomes if o.code in UNREAD}
+    told = {o.message for o in found.outcomes if o.code == "CONSTRAINT_NOT_INTERPRETED" and o.feature in unread}
+    return Report(
+        [d for d in found.diagnostics if d.message not in told],
+        [o for o in found.outcomes if o.message not in told or not o.message],
+    )
 
 
 def _tell_unjoined(found: Analysis, report: Report) -> None:

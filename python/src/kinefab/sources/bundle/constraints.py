@@ -136,7 +136,7 @@ def _fields(
 
 def _unknown(log: Log, feature: str, code: str, place: str, word: str, known: Mapping[str, object]) -> None:
     near = near_words(word, known, log.report)
-    log.approximated(feature, code, place, word=shown(word), near=near, known=", ".join(known))
+    log.dropped(feature, code, place, word=shown(word), near=near, known=", ".join(known))
 
 
 def _unit(kind: ConstraintKind, signed: bool, frame: SourceFrame) -> float:

@@ -1,5 +1,6 @@
 using System;
 using System.Collections.Generic;
+using System.Linq;
 using Kinefab.Document;
 using Kinefab.Dynamics;
 using Kinefab.Numerics;
@@ -113,6 +114,21 @@ public sealed class WorldStepTests
         Assert.That(broken, Has.Count.EqualTo(breaks ? 1 : 0));
         Assert.That(world.Joints[0].IsBroken, Is.EqualTo(breaks));
         Assert.That(world.Bodies[0].Pose.Position.Y, breaks ? Is.LessThan(-0.5) : Is.EqualTo(0).Within(1e-9));
+    }
+
+    [Test]
+    public void JointBroken_AHandlerThatThrows_KeepsNothingFromTheOthers()
+    {
+        GameObject[] hung = [.. new[] { "a", "b" }.Select(id => new GameObject { Id = id, Name = id, Components = [new Rigidbody(), new FixedJoint { BreakForce = 1 }] })];
+        World world = World.Create(SmallScene.Validate(new SceneDocument { GameObjects = hung }));
+        var broken = new List<WorldJoint>();
+        world.JointBroken += (_, _) => throw new InvalidTimeZoneException();
+        world.JointBroken += (_, e) => broken.Add(e.Joint);
+
+        Assert.That(() => world.Step(0.02), Throws.InstanceOf<InvalidTimeZoneException>());
+        Assert.That(broken, Is.EqualTo(world.Joints));
+        Assert.That(() => world.Step(0.02), Throws.Nothing);
+        Assert.That((broken.Count, world.Time), Is.EqualTo((2, 0.04)));
     }
 
     [Test]

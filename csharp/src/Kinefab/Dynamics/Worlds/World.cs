@@ -1,6 +1,7 @@
 using System;
 using System.Collections.Generic;
 using System.Diagnostics;
+using System.Runtime.ExceptionServices;
 using System.Threading;
 using Kinefab.Diagnostics;
 using Kinefab.Document;
@@ -39,7 +40,7 @@ public sealed partial class World
         Findings = findings;
     }
 
-    /// <summary>Raised after a step for every joint that broke in it.</summary>
+    /// <summary>Raised after a step for every joint that broke in it. What a handler throws, the step throws when all have been told.</summary>
     public event EventHandler<JointBrokenEventArgs>? JointBroken;
 
     /// <summary>The scene that it was made from.</summary>
@@ -251,20 +252,42 @@ public sealed partial class World
             _mechanism.Cancellation = default;
         }
 
+        ExceptionDispatchInfo? failure = null;
         for (int i = 0; i < Joints.Count; i++)
         {
             WorldJoint joint = Joints[i];
             if (joint.IsBroken && !_broken[i])
             {
                 _broken[i] = true;
-                JointBroken?.Invoke(this, new JointBrokenEventArgs(joint));
+                TellBroken(joint, ref failure);
             }
         }
+
+        failure?.Throw();
     }
 
     /// <summary>Solver, time, and how many bodies and joints there are.</summary>
     public override string ToString() =>
         FormattableString.Invariant($"{Solver} world at {Time:0.######} s: {Bodies.Count} bodies, {Joints.Count} joints{(Stops > 0 ? $", {Stops} stops" : "")}");
+
+    // Each handler by itself: one that throws keeps nothing from the others.
+    private void TellBroken(WorldJoint joint, ref ExceptionDispatchInfo? failure)
+    {
+        if (JointBroken is not { } handlers)
+            return;
+        var told = new JointBrokenEventArgs(joint);
+        foreach (Delegate handler in handlers.GetInvocationList())
+        {
+            try
+            {
+                ((EventHandler<JointBrokenEventArgs>)handler)(this, told);
+            }
+            catch (Exception thrown)
+            {
+                failure ??= ExceptionDispatchInfo.Capture(thrown);
+            }
+        }
+    }
 
     private void Advance(double dt)
     {

@@ -278,6 +278,21 @@ public sealed class WorldDriveTests
         Assert.That(world.Joints[0].Coordinate(Coordinate.X), Is.EqualTo(0.05 + 1.0 / 100).Within(1e-6));
     }
 
+    /// <summary>A force of 0 is none that was stated, whether the coordinate is sent or turned.</summary>
+    [Test]
+    public void Drives_WithoutAForce_MoveTheJoint([Values] SolverKind solver, [Values(0, 50)] double spring)
+    {
+        ConfigurableJoint joint = Only(Coordinate.X, swap: false) with { XDrive = new JointDrive { PositionSpring = spring, PositionDamper = 20, MaximumForce = 0 } };
+        World to = SmallScene.Create(joint, solver: solver), at = SmallScene.Create(joint, solver: solver);
+
+        to.Joints[0].DriveTo(Coordinate.X, 0.1);
+        at.Joints[0].DriveAt(Coordinate.X, 0.1);
+        SmallScene.Run(to, 5);
+        SmallScene.Run(at, 1);
+
+        Assert.That((to.Joints[0].Coordinate(Coordinate.X), at.Joints[0].Coordinate(Coordinate.X)), Is.EqualTo((0.1, 0.1)).Using<(double, double)>((a, b) => Math.Abs(a.Item1 - b.Item1) < 1e-3 && Math.Abs(a.Item2 - b.Item2) < 1e-3));
+    }
+
     [Test]
     public void DriveTo_CoordinateOfAnotherKind_Throws()
     {

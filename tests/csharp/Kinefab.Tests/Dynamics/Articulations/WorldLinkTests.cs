@@ -215,6 +215,23 @@ public sealed class WorldLinkTests
         }
     }
 
+    // The limit of force of a drive without gains holds of DriveTo too, which forgot it.
+    [TestCase(SolverKind.Unity)]
+    [TestCase(SolverKind.Exact)]
+    public void DriveToAndAt_OfADriveWithAForceAlone_GiveNoMore(SolverKind solver)
+    {
+        foreach (bool isSpeed in new[] { false, true })
+        {
+            World world = LinkScene.World(solver, LinkScene.Link(Prismatic, new ArticulationDrive { ForceLimit = 3 }) with { UseGravity = false, LinearDamping = 0 });
+            if (isSpeed)
+                world.DriveAt("L1", 10);
+            else
+                world.DriveTo("L1", 10);
+            world.Run(1);
+            Assert.That(world.Body("L1").LinearVelocity.Length, Is.EqualTo(1.5).Within(0.02), isSpeed ? "at" : "to");
+        }
+    }
+
     [TestCase(SolverKind.Unity)]
     [TestCase(SolverKind.Exact)]
     public void AddForce_OnACoordinate_HoldsTheWeight(SolverKind solver)

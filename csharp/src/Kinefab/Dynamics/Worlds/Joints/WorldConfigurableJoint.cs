@@ -121,9 +121,7 @@ public sealed class WorldConfigurableJoint : WorldJoint
             _turningGoals[i - FirstAngle] = double.NaN;
         }
 
-        Kinefab.Joints.DriveModel own = OwnDrive(i);
-        double limit = own.IsActive ? own.ForceLimit : double.PositiveInfinity;
-        ConfigurableDrives.Of(joint, i) = new Kinefab.Joints.DriveModel { Damping = damping, ForceLimit = limit, IsAcceleration = true, Prescribes = Kinefab.Joints.Prescribed.Speed };
+        ConfigurableDrives.Of(joint, i) = new Kinefab.Joints.DriveModel { Damping = damping, ForceLimit = ForceLimit(OwnDrive(i).ForceLimit), IsAcceleration = true, Prescribes = Kinefab.Joints.Prescribed.Speed };
         ConfigurableDrives.SetSpeed(joint, i, _sign * (IsAngle(i) ? speed / Degrees : speed));
     }
 

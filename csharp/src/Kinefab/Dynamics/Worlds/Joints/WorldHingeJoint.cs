@@ -93,7 +93,7 @@ public sealed class WorldHingeJoint : WorldJoint
         joint.MotorEnabled = true;
         _goal = double.NaN;
         joint.MotorVelocity = -speed / Degrees;
-        joint.MotorForceLimit = _settings.Motor.Force > 0 ? _settings.Motor.Force : double.PositiveInfinity;
+        joint.MotorForceLimit = ForceLimit(_settings.Motor.Force);
     }
 
     // The spring counts from where the joint's own angle stands, which may have wrapped.

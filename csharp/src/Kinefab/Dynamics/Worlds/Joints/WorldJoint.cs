@@ -87,7 +87,7 @@ public abstract class WorldJoint
 
     /// <summary>
     /// Drives a coordinate towards a value, with the component's own spring gains or, if it has none, firmly: the gap
-    /// closes with a time constant of 0.1 s whatever loads the joint, by the component's drive limit if it has one. The exact solver holds that
+    /// closes with a time constant of 0.1 s whatever loads the joint, with at most the force of the component's drive (0: any). The exact solver holds that
     /// motion as it holds a joint, and begins that to a goal far away, or to one that the mechanism does not follow, slowly; the other has a stiff spring
     /// follow it. Stands until Settings is set. A goal that limits, or the rest of the mechanism, keep it from is no error: what it came to is what
     /// <see cref="Coordinate"/> says after the run.
@@ -105,7 +105,7 @@ public abstract class WorldJoint
     /// </code></example>
     public abstract void DriveTo(Coordinate coordinate, double target);
 
-    /// <summary>Drives a coordinate at a speed, with the component's force limit if it has one. Stands until Settings is set.</summary>
+    /// <summary>Drives a coordinate at a speed, with at most the force of the component's drive or motor (0: any). Stands until Settings is set.</summary>
     /// <param name="coordinate">As in <see cref="Coordinate"/>.</param>
     /// <param name="speed">Degrees/s or metres/s.</param>
     /// <exception cref="ArgumentException">The joint has no such coordinate, or the speed is no number.</exception>
@@ -113,9 +113,17 @@ public abstract class WorldJoint
 
     // The gap falls by a tenth each 0.01 s: prescribed in the exact solver; else by an overdamped spring, which yields by 1e-6 of the acceleration that
     // the load would give.
-    private protected static Kinefab.Joints.DriveModel PositionDrive(in Kinefab.Joints.DriveModel given) => given.Stiffness > 0
-        ? given
-        : new Kinefab.Joints.DriveModel { Stiffness = 1e6, Damping = 1e5, ForceLimit = given.IsActive && given.ForceLimit > 0 ? given.ForceLimit : double.PositiveInfinity, IsAcceleration = true, Prescribes = Prescribed.Position };
+    private protected static Kinefab.Joints.DriveModel PositionDrive(in Kinefab.Joints.DriveModel given)
+    {
+        Kinefab.Joints.DriveModel drive = given.Stiffness > 0
+            ? given
+            : new Kinefab.Joints.DriveModel { Stiffness = 1e6, Damping = 1e5, IsAcceleration = true, Prescribes = Prescribed.Position };
+        drive.ForceLimit = ForceLimit(given.ForceLimit);
+        return drive;
+    }
+
+    // A motor's force is 0 where nobody stated one, and who drives a joint wants it to move.
+    private protected static double ForceLimit(double own) => own > 0 ? own : double.PositiveInfinity;
 
     /// <summary>Called before a step: goals of drives follow the turns that were made.</summary>
     internal virtual void BeforeStep()

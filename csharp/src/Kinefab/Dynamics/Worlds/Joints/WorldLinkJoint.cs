@@ -160,8 +160,7 @@ public sealed class WorldLinkJoint : WorldJoint
         _joint.DriveAt(coordinate, speed);
         ref LinkAxis axis = ref Tree.AxisOfFreedom(LinkIndex, freedom);
         (axis.Stiffness, axis.Damping, axis.IsAcceleration) = (0, damping, true);
-        double limit = ArticulationModel.Axis(_settings, Tree.AxisOf[freedom]).ForceLimit;
-        axis.ForceLimit = limit > 0 ? limit : double.PositiveInfinity;
+        axis.ForceLimit = ForceLimit(ArticulationModel.Axis(_settings, Tree.AxisOf[freedom]).ForceLimit);
         axis.TargetSpeed = speed / Unit;
     }
 

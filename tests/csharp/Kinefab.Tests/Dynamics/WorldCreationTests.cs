@@ -281,6 +281,18 @@ public sealed class WorldCreationTests
         Assert.That((found.Code, found.Severity, found.Pointer), Is.EqualTo((DiagnosticCodes.MassScaleIgnored, Severity.Warning, "/gameObjects/0/components/1")));
         Assert.That(found.Message, Does.Contain("massScale 4"));
         Assert.That(SmallScene.Create(scaled).Findings.Diagnostics, Is.Empty, "Unity's solver follows it");
+
+        // As well where a program asks for it later, once.
+        World later = SmallScene.Create(Locked(auto: false), solver: SolverKind.Exact), unity = SmallScene.Create(Locked(auto: false));
+        foreach (World world in new[] { later, unity, later, exact })
+        {
+            var joint = (WorldConfigurableJoint)world.Joints[0];
+            joint.Settings = joint.Settings with { MassScale = 3 };
+        }
+
+        Assert.That(later.Findings.Diagnostics.Select(one => (one.Code, one.Pointer)), Is.EqualTo([(found.Code, found.Pointer)]));
+        Assert.That(later.Findings.Diagnostics[0].Message, Does.Contain("massScale 3"));
+        Assert.That((unity.Findings.Diagnostics.Count, exact.Findings.Diagnostics.Count), Is.EqualTo((0, 1)));
         Assert.That(SmallScene.Create(Locked(auto: false), solver: SolverKind.Exact).Findings.Diagnostics, Is.Empty);
     }
 

@@ -18,9 +18,9 @@ internal static class ExactSolverCheck
         {
             for (int c = 0; c < objects[i].Components.Count; c++)
             {
-                if (objects[i].Components[c] is Joint { Enabled: true } joint && (joint.MassScale != 1 || joint.ConnectedMassScale != 1))
+                if (objects[i].Components[c] is Joint { Enabled: true } joint && HasMassScales(joint))
                 {
-                    found.Add(Ignored(joint, $"/gameObjects/{Text(i)}/components/{Text(c)}"));
+                    found.Add(Finding(DiagnosticCodes.MassScaleIgnored, $"/gameObjects/{Text(i)}/components/{Text(c)}", MassScales(joint)));
                 }
                 else if (objects[i].Components[c] is ArticulationBody link && !scene.IsRootLink(i) && LeftOut(link) is string what)
                 {
@@ -31,6 +31,12 @@ internal static class ExactSolverCheck
 
         return found;
     }
+
+    /// <summary>Whether a joint is to see other masses than its bodies have.</summary>
+    public static bool HasMassScales(Joint joint) => joint.MassScale != 1 || joint.ConnectedMassScale != 1;
+
+    /// <summary>What <see cref="DiagnosticCodes.MassScaleIgnored"/> names of it.</summary>
+    public static (string Name, string Value)[] MassScales(Joint joint) => new[] { ("own", Text(joint.MassScale)), ("connected", Text(joint.ConnectedMassScale)) };
 
     // Joint friction has no law that keeps energy's account; a swing's limits are a cone that is alike on both sides.
     private static string? LeftOut(ArticulationBody link)
@@ -51,9 +57,6 @@ internal static class ExactSolverCheck
         LinkJoint.TurnMotion(link, axis) != ConfigurableJointMotion.Locked && drive.DriveType != ArticulationDriveType.Velocity && (drive.Stiffness > 0 || drive.DriveType == ArticulationDriveType.Target);
 
     private static bool Lopsided(ConfigurableJointMotion motion, ArticulationDrive drive) => motion == ConfigurableJointMotion.Limited && drive.LowerLimit != -drive.UpperLimit;
-
-    private static Diagnostic Ignored(Joint joint, string pointer) =>
-        Finding(DiagnosticCodes.MassScaleIgnored, pointer, ("own", Text(joint.MassScale)), ("connected", Text(joint.ConnectedMassScale)));
 
     private static Diagnostic Finding(string code, string pointer, params (string Name, string Value)[] values)
     {

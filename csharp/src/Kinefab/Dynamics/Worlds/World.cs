@@ -38,6 +38,9 @@ public sealed partial class World
         Joints = joints;
         _names = names;
         Findings = findings;
+        Action<WorldJoint, Document.Joint> given = TellOfMassScales;
+        foreach (WorldJoint joint in joints)
+            joint.Given = given;
     }
 
     /// <summary>Raised after a step for every joint that broke in it. What a handler throws, the step throws when all have been told.</summary>
@@ -57,7 +60,8 @@ public sealed partial class World
 
     /// <summary>
     /// What of the scene this world's solver does not follow; none is an error. Steps that the exact solver could not solve,
-    /// and poses that it closed before a step, are added as they occur: each joint once, ten findings of a kind at most.
+    /// and poses that it closed before a step, are added as they occur, each joint once, ten findings of a kind at most; and so is what a
+    /// program asks of a joint that it cannot have: each joint once.
     /// </summary>
     public Report Findings { get; private set; }
 
@@ -269,6 +273,24 @@ public sealed partial class World
     /// <summary>Solver, time, and how many bodies and joints there are.</summary>
     public override string ToString() =>
         FormattableString.Invariant($"{Solver} world at {Time:0.######} s: {Bodies.Count} bodies, {Joints.Count} joints{(Stops > 0 ? $", {Stops} stops" : "")}");
+
+    private void TellOnce(Diagnostic found)
+    {
+        foreach (Diagnostic said in Findings.Diagnostics)
+        {
+            if (said.Code == found.Code && said.Pointer == found.Pointer)
+                return;
+        }
+
+        Findings = Findings.Concat(new Report(new[] { found }));
+    }
+
+    // As ExactSolverCheck does of those that the scene has.
+    private void TellOfMassScales(WorldJoint joint, Document.Joint settings)
+    {
+        if (Solver == SolverKind.Exact && ExactSolverCheck.HasMassScales(settings))
+            TellOnce(Diagnostic.Of(DiagnosticCodes.MassScaleIgnored, joint.Pointer, ExactSolverCheck.MassScales(settings)));
+    }
 
     // Each handler by itself: one that throws keeps nothing from the others.
     private void TellBroken(WorldJoint joint, ref ExceptionDispatchInfo? failure)

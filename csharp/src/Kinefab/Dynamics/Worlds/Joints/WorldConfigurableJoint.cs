@@ -70,6 +70,7 @@ public sealed class WorldConfigurableJoint : WorldJoint
 
             SettingsCheck.ThrowIfWrong(value);
             _settings = value;
+            Given?.Invoke(this, value);
             UnityJoints.Apply(value, (D6Joint)Solved);
             ConfigurableDrives.Goals((D6Joint)Solved).CopyTo(_goals, 0);
             Array.Fill(_turningGoals, double.NaN);

@@ -41,6 +41,7 @@ public sealed class WorldHingeJoint : WorldJoint
 
             SettingsCheck.ThrowIfWrong(value);
             _settings = value;
+            Given?.Invoke(this, value);
             _goal = double.NaN;
             UnityJoints.Apply(value, (RevoluteJoint)Solved);
         }

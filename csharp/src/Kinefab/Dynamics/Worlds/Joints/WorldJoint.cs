@@ -67,6 +67,12 @@ public abstract class WorldJoint
 
     internal int Index { get; }
 
+    /// <summary>Hears what settings a program gave the joint; null: of a joint that only stands in for another one.</summary>
+    internal Action<WorldJoint, Document.Joint>? Given { get; set; }
+
+    /// <summary>JSON pointer of its component.</summary>
+    internal string Pointer => FormattableString.Invariant($"/gameObjects/{GameObject}/components/{Component}");
+
     /// <summary>Actor 1's joint frame in actor 0's.</summary>
     internal Pose Relative => (Pose0 * Solved.Frame0).Inverse() * (Pose1 * Solved.Frame1);
 

@@ -120,7 +120,11 @@ internal static class SimulateCommand
             var doubts = new Report([.. drives.Select(drive => drive.Doubt(loaded.Scene, dt)).OfType<Diagnostic>()]);
             Tell(file, doubts);
             before = before.Concat(doubts);
+            int told = world.Findings.Diagnostics.Count;
             drives.ForEach(drive => drive.Apply());
+            var lost = new Report([.. world.Findings.Diagnostics.Skip(told)]);
+            Tell(file, lost);
+            before = before.Concat(lost);
             var steps = (int)count;
             if (Output is not null && TrajectorySize.Fault(steps, world.Bodies.Count, mechanism!.Coordinates.Count) is string excess)
                 return SceneOutcome.Refused(before, $"--output {Output}: {excess} Give fewer seconds or a longer --step.");

@@ -342,6 +342,9 @@ public static class DiagnosticCodes
     /// <summary>{coordinate} is to go to {target}, and its own limits end at {limit}.</summary>
     public const string DriveBeyondLimits = "DRIVE_BEYOND_LIMITS";
 
+    /// <summary>{coordinate} is driven {how}, and by the same drive, the joint's slerp drive, {other} too: its {lost} is given up.</summary>
+    public const string DriveShared = "DRIVE_SHARED";
+
     /// <summary>{coordinate} is to turn at {speed}, which is {angle} degrees in a step of {step} s: from 180 on no step tells which way it turns.</summary>
     public const string DriveSpeedCoarse = "DRIVE_SPEED_COARSE";
 

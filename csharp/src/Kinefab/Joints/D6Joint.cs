@@ -27,11 +27,17 @@ internal sealed class D6Joint : JointModel
     /// <summary>About actor 1's X.</summary>
     public DriveModel DriveTwist;
 
-    /// <summary>About actor 1's Y and Z.</summary>
-    public DriveModel DriveSwing;
+    /// <summary>About actor 1's Y and Z: PhysX has one drive for both, a program may drive either by itself.</summary>
+    public DriveModel DriveSwing1, DriveSwing2;
 
     /// <summary>Along the shortest arc; replaces twist and swing drives, and needs all three angles unlocked.</summary>
     public DriveModel DriveSlerp;
+
+    /// <summary>Both swings' drive, as PhysX has it.</summary>
+    public DriveModel DriveSwing
+    {
+        set => DriveSwing1 = DriveSwing2 = value;
+    }
 
     /// <summary>Goal of frame 1 in frame 0.</summary>
     public Pose DrivePose = Pose.Identity;
@@ -59,7 +65,7 @@ internal sealed class D6Joint : JointModel
         TwistLimit = d6.TwistLimit;
         SwingLimit = d6.SwingLimit;
         (DriveX, DriveY, DriveZ) = (d6.DriveX, d6.DriveY, d6.DriveZ);
-        (DriveTwist, DriveSwing, DriveSlerp) = (d6.DriveTwist, d6.DriveSwing, d6.DriveSlerp);
+        (DriveTwist, DriveSwing1, DriveSwing2, DriveSlerp) = (d6.DriveTwist, d6.DriveSwing1, d6.DriveSwing2, d6.DriveSlerp);
         DrivePose = d6.DrivePose;
         DriveTwistAngle = d6.DriveTwistAngle;
         DriveLinearVelocity = d6.DriveLinearVelocity;
@@ -110,8 +116,8 @@ internal sealed class D6Joint : JointModel
             + Count(IsSprung(X)) + Count(IsSprung(Y)) + Count(IsSprung(Z));
         bool slerp = DriveSlerp.IsActive && Twist != AxisMotion.Locked && swing1 != AxisMotion.Locked && swing2 != AxisMotion.Locked;
         int angular = slerp ? 3
-            : Count(DriveTwist.IsActive && Twist != AxisMotion.Locked) + Count(DriveSwing.IsActive && swing1 != AxisMotion.Locked)
-                + Count(DriveSwing.IsActive && swing2 != AxisMotion.Locked);
+            : Count(DriveTwist.IsActive && Twist != AxisMotion.Locked) + Count(DriveSwing1.IsActive && swing1 != AxisMotion.Locked)
+                + Count(DriveSwing2.IsActive && swing2 != AxisMotion.Locked);
         return new RowLayout(locked, limited, linear, angular, slerp);
 
         int Bits(AxisMotion motion) =>
@@ -186,8 +192,9 @@ internal sealed class D6Joint : JointModel
         bool isSwing2Free = Swing(Swing2) != AxisMotion.Locked;
         bool slerp = DriveSlerp.IsActive && Twist != AxisMotion.Locked && isSwing1Free && isSwing2Free;
         bool twist = DriveTwist.IsActive && Twist != AxisMotion.Locked;
-        bool swing = DriveSwing.IsActive && (isSwing1Free || isSwing2Free);
-        if (!slerp && !twist && !swing)
+        bool swing1 = DriveSwing1.IsActive && isSwing1Free;
+        bool swing2 = DriveSwing2.IsActive && isSwing2Free;
+        if (!slerp && !twist && !swing1 && !swing2)
         {
             return;
         }
@@ -226,30 +233,23 @@ internal sealed class D6Joint : JointModel
             writer.AngularDrive(x1, DriveAngularVelocity.X, error, DriveTwist);
         }
 
-        if (swing && writer.Prescribed(DriveSwing) == Prescribed.Position)
+        Vector3d x = delta * Vector3d.UnitX;
+        if (swing1 && writer.Prescribed(DriveSwing1) == Prescribed.Position)
         {
-            if (isSwing1Free)
-            {
-                AngularMotion(ref writer, f, 1, y1, DriveSwing);
-            }
-
-            if (isSwing2Free)
-            {
-                AngularMotion(ref writer, f, 2, z1, DriveSwing);
-            }
+            AngularMotion(ref writer, f, 1, y1, DriveSwing1);
         }
-        else if (swing)
+        else if (swing1)
         {
-            Vector3d x = delta * Vector3d.UnitX;
-            if (isSwing1Free)
-            {
-                writer.AngularDrive(y1, DriveAngularVelocity.Y, x.Z, DriveSwing);
-            }
+            writer.AngularDrive(y1, DriveAngularVelocity.Y, x.Z, DriveSwing1);
+        }
 
-            if (isSwing2Free)
-            {
-                writer.AngularDrive(z1, DriveAngularVelocity.Z, -x.Y, DriveSwing);
-            }
+        if (swing2 && writer.Prescribed(DriveSwing2) == Prescribed.Position)
+        {
+            AngularMotion(ref writer, f, 2, z1, DriveSwing2);
+        }
+        else if (swing2)
+        {
+            writer.AngularDrive(z1, DriveAngularVelocity.Z, -x.Y, DriveSwing2);
         }
     }
 

@@ -53,6 +53,22 @@ public sealed class DrivenRunTests
         Assert.That(CommandLineTests.Run("simulate", Scene, "--seconds", "0.02", "--drive", drive).Findings, Is.Empty);
 
     [Test]
+    public void Simulate_AnglesOfASlerpDriveThatDiffer_AreToldOf()
+    {
+        string scene = Path.Combine(Directory.CreateTempSubdirectory("kinefab").FullName, "ball.kinefab");
+        File.WriteAllText(scene, """
+            {"format": "kinefab.scene", "version": "1.0", "gameObjects": [{"id": "ball", "name": "ball", "components": [{"type": "Rigidbody", "mass": 1, "inertiaTensor": [1, 1, 1]},
+                {"type": "ConfigurableJoint", "xMotion": "Locked", "yMotion": "Locked", "zMotion": "Locked", "rotationDriveMode": "Slerp", "slerpDrive": {"positionDamper": 1}}]}]}
+            """);
+
+        (int exit, _, string findings) = CommandLineTests.Run("simulate", scene, "--seconds", "0.1", "--drive", "ball.angularY=20/s", "--drive", "ball.angularZ=15");
+
+        Assert.That(exit, Is.Zero);
+        Assert.That(findings, Does.Contain("warning DRIVE_SHARED /gameObjects/0/components/1: angularZ is driven to a goal"));
+        Directory.Delete(Path.GetDirectoryName(scene)!, recursive: true);
+    }
+
+    [Test]
     public void Simulate_MoreThanHalfATurnInAStep_IsWarnedOfWithTheMost()
     {
         string findings = CommandLineTests.Run("simulate", Scene, "--seconds", "0.1", "--drive", "Lid:1=20000/s").Findings;

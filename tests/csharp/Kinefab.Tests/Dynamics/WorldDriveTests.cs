@@ -1,4 +1,6 @@
 using System;
+using System.Linq;
+using Kinefab.Diagnostics;
 using Kinefab.Document;
 using Kinefab.Dynamics;
 using Kinefab.Numerics;
@@ -278,6 +280,77 @@ public sealed class WorldDriveTests
         Assert.That(world.Joints[0].Coordinate(Coordinate.X), Is.EqualTo(0.05 + 1.0 / 100).Within(1e-6));
     }
 
+    /// <summary>The two swings have one drive in Unity: what one was asked took the other along, so that Y came to 0 here as Z was sent to 15.</summary>
+    [Test]
+    public void Drives_OfBothSwings_AreEachTheirOwn([Values] SolverKind solver, [Values] bool isTwistFree)
+    {
+        ConfigurableJoint joint = Swings(isTwistFree);
+        World places = SmallScene.Create(joint, solver: solver), speeds = SmallScene.Create(joint, solver: solver), mixed = SmallScene.Create(joint, solver: solver);
+
+        places.Joints[0].DriveTo(Coordinate.AngularY, 20);
+        places.Joints[0].DriveTo(Coordinate.AngularZ, 15);
+        speeds.Joints[0].DriveAt(Coordinate.AngularY, 20);
+        speeds.Joints[0].DriveAt(Coordinate.AngularZ, 15);
+        mixed.Joints[0].DriveAt(Coordinate.AngularY, 20);
+        mixed.Joints[0].DriveTo(Coordinate.AngularZ, 15);
+        SmallScene.Run(places, 3);
+        SmallScene.Run(speeds, 0.5);
+        SmallScene.Run(mixed, 2);
+
+        using (Assert.EnterMultipleScope())
+        {
+            Assert.That(places.Joints[0].Coordinate(Coordinate.AngularY), Is.EqualTo(20).Within(0.01));
+            Assert.That(places.Joints[0].Coordinate(Coordinate.AngularZ), Is.EqualTo(15).Within(0.01));
+            Assert.That(speeds.Joints[0].Coordinate(Coordinate.AngularY), Is.EqualTo(10).Within(0.1));
+            Assert.That(speeds.Joints[0].Coordinate(Coordinate.AngularZ), Is.EqualTo(7.5).Within(0.1));
+
+            // About Y the speed is that of the connected frame's own axis, which leans by the 15 degrees.
+            Assert.That(mixed.Joints[0].Coordinate(Coordinate.AngularY), Is.EqualTo(40).Within(3));
+            Assert.That(mixed.Joints[0].Coordinate(Coordinate.AngularZ), Is.EqualTo(15).Within(0.1));
+            Assert.That(mixed.Findings.Diagnostics, Is.Empty);
+        }
+
+        mixed.Joints[0].DriveTo(Coordinate.AngularY, 5);
+        SmallScene.Run(mixed, 3);
+        Assert.That((mixed.Joints[0].Coordinate(Coordinate.AngularY), mixed.Joints[0].Coordinate(Coordinate.AngularZ)), Is.EqualTo((5.0, 15.0)).Using<(double, double)>((a, b) => Math.Abs(a.Item1 - b.Item1) + Math.Abs(a.Item2 - b.Item2) < 0.02));
+    }
+
+    /// <summary>What is not asked for is left free, as with any other coordinate.</summary>
+    [Test]
+    public void DriveTo_OneSwing_LeavesTheOtherFree([Values] SolverKind solver)
+    {
+        World world = SmallScene.Create(Swings(isTwistFree: false), solver: solver);
+
+        world.Bodies[0].AngularVelocity = SmallScene.OwnPose.Rotation * new Vector3d(0, 0, 1);
+        world.Joints[0].DriveTo(Coordinate.AngularY, 20);
+        SmallScene.Run(world, 1);
+
+        Assert.That(world.Joints[0].Coordinate(Coordinate.AngularZ), Is.GreaterThan(40));
+        Assert.That(world.Joints[0].Coordinate(Coordinate.AngularY), Is.EqualTo(20).Within(0.1));
+    }
+
+    [Test]
+    public void Drives_OfASlerpDriveThatDiffer_AreNamedOnce([Values] bool isSpeedLast)
+    {
+        World world = SmallScene.Create(Swings(isTwistFree: true) with { RotationDriveMode = RotationDriveMode.Slerp, SlerpDrive = new JointDrive { PositionDamper = 1 } });
+
+        for (int i = 0; i < 3; i++)
+        {
+            world.Joints[0].DriveAt(Coordinate.AngularY, 20);
+            world.Joints[0].DriveTo(Coordinate.AngularZ, 15);
+            if (isSpeedLast)
+                world.Joints[0].DriveAt(Coordinate.AngularY, 20);
+        }
+
+        Diagnostic found = world.Findings.Diagnostics.Single();
+        Assert.That((found.Code, found.Pointer), Is.EqualTo((DiagnosticCodes.DriveShared, "/gameObjects/0/components/1")));
+        Assert.That(found.Message, Does.StartWith("angularZ is driven to a goal, and by the same drive, the joint's slerp drive, angularY too: its speed is given up."));
+        World alike = SmallScene.Create(Swings(isTwistFree: true) with { RotationDriveMode = RotationDriveMode.Slerp, SlerpDrive = new JointDrive { PositionDamper = 1 } });
+        alike.Joints[0].DriveTo(Coordinate.AngularY, 20);
+        alike.Joints[0].DriveTo(Coordinate.AngularZ, 15);
+        Assert.That(alike.Findings.Diagnostics, Is.Empty);
+    }
+
     /// <summary>A force of 0 is none that was stated, whether the coordinate is sent or turned.</summary>
     [Test]
     public void Drives_WithoutAForce_MoveTheJoint([Values] SolverKind solver, [Values(0, 50)] double spring)
@@ -304,6 +377,12 @@ public sealed class WorldDriveTests
         Assert.That(() => fixedJoint.Joints[0].DriveAt(Coordinate.X, 1), Throws.ArgumentException);
         Assert.That(() => configurable.Joints[0].Coordinate(Coordinate.Angle), Throws.ArgumentException);
     }
+
+    private static ConfigurableJoint Swings(bool isTwistFree) => Only(Coordinate.AngularY, swap: false) with
+    {
+        AngularXMotion = isTwistFree ? Free : Locked,
+        AngularZMotion = Free,
+    };
 
     private static ConfigurableJoint Only(Coordinate coordinate, bool swap, Vector3d? connectedAnchor = null) => new()
     {

@@ -38,9 +38,10 @@ public sealed partial class World
         Joints = joints;
         _names = names;
         Findings = findings;
+        Action<Diagnostic> tell = TellOnce;
         Action<WorldJoint, Document.Joint> given = TellOfMassScales;
         foreach (WorldJoint joint in joints)
-            joint.Given = given;
+            (joint.Tell, joint.Given) = (tell, given);
     }
 
     /// <summary>Raised after a step for every joint that broke in it. What a handler throws, the step throws when all have been told.</summary>
@@ -202,7 +203,7 @@ public sealed partial class World
         }
     }
 
-    /// <summary>Drives a joint coordinate towards a value, see <see cref="WorldJoint.DriveTo"/>; drives of other coordinates stay, but for those that have the same one.</summary>
+    /// <summary>Drives a joint coordinate towards a value, see <see cref="WorldJoint.DriveTo"/>; drives of other coordinates stay, but for those of a slerp drive.</summary>
     /// <param name="name">As in <see cref="this[string]"/>.</param>
     /// <param name="target">Degrees or metres.</param>
     /// <exception cref="ArgumentException">None answers to the name, or several do (the message says which there are); or the target is no finite number.</exception>
@@ -212,7 +213,7 @@ public sealed partial class World
         joint.DriveTo(coordinate, target);
     }
 
-    /// <summary>Drives a joint coordinate at a speed, see <see cref="WorldJoint.DriveAt"/>; drives of other coordinates stay, but for those that have the same one.</summary>
+    /// <summary>Drives a joint coordinate at a speed, see <see cref="WorldJoint.DriveAt"/>; drives of other coordinates stay, but for those of a slerp drive.</summary>
     /// <param name="name">As in <see cref="this[string]"/>.</param>
     /// <param name="speed">Degrees/s or metres/s.</param>
     /// <exception cref="ArgumentException">None answers to the name, or several do (the message says which there are); or the speed is no finite number.</exception>

@@ -29,7 +29,12 @@ internal static class ConfigurableDrives
                     return ref joint.DriveTwist;
                 }
 
-                return ref joint.DriveSwing;
+                if (axis == (int)CoordinateAxis.AngularY)
+                {
+                    return ref joint.DriveSwing1;
+                }
+
+                return ref joint.DriveSwing2;
         }
     }
 

@@ -1,6 +1,7 @@
 using System;
 using System.Collections.Generic;
 using System.Linq;
+using Kinefab.Diagnostics;
 using Kinefab.Document;
 using Kinefab.Joints;
 using Kinefab.Mechanisms;
@@ -94,6 +95,7 @@ public sealed class WorldConfigurableJoint : WorldJoint
         int i = Axis(coordinate);
         Finite.OrThrow(target, nameof(target));
         var joint = (D6Joint)Solved;
+        TellOfSlerp(joint, i, isSpeed: false);
         ConfigurableDrives.Of(joint, i) = PositionDrive(OwnDrive(i));
         ConfigurableDrives.SetSpeed(joint, i, 0);
         double goal = _sign * ((IsAngle(i) ? target / Degrees : target) + _start[i]);
@@ -117,6 +119,7 @@ public sealed class WorldConfigurableJoint : WorldJoint
         int i = Axis(coordinate);
         Finite.OrThrow(speed, nameof(speed));
         var joint = (D6Joint)Solved;
+        TellOfSlerp(joint, i, isSpeed: true);
         if (IsAngle(i))
         {
             _turningGoals[i - FirstAngle] = double.NaN;
@@ -142,17 +145,26 @@ public sealed class WorldConfigurableJoint : WorldJoint
     internal override void BeforeStep()
     {
         bool isLed = false;
+        bool goesAlong = GoesAlong((D6Joint)Solved);
         for (int i = 0; i < _goals.Length; i++)
         {
-            if (double.IsNaN(_turningGoals[i]))
+            double at = _sign * _unwrapped[FirstAngle + i];
+            double goal;
+            if (!double.IsNaN(_turningGoals[i]))
+            {
+                double ahead = _turningGoals[i] - at;
+                double most = i == 0 ? MostAheadOfTwist : MostAheadOfSwing;
+                goal = Math.Abs(ahead) > most ? at + Math.Sign(ahead) * most : _turningGoals[i];
+            }
+            else if (goesAlong && ConfigurableDrives.Of((D6Joint)Solved, FirstAngle + i).Stiffness == 0)
+            {
+                goal = at;
+            }
+            else
             {
                 continue;
             }
 
-            double at = _sign * _unwrapped[FirstAngle + i];
-            double ahead = _turningGoals[i] - at;
-            double most = i == 0 ? MostAheadOfTwist : MostAheadOfSwing;
-            double goal = Math.Abs(ahead) > most ? at + Math.Sign(ahead) * most : _turningGoals[i];
             isLed |= goal != _goals[i];
             _goals[i] = goal;
         }
@@ -192,6 +204,37 @@ public sealed class WorldConfigurableJoint : WorldJoint
         (AxisMotion own, AxisMotion other) = angle == 1 ? (joint.Swing1, joint.Swing2) : (joint.Swing2, joint.Swing1);
         return angle > 0 && own == AxisMotion.Limited && (other == AxisMotion.Locked || joint.Twist == AxisMotion.Locked)
             && !joint.SwingLimit.Response.IsSoft && !joint.IsBroken;
+    }
+
+    // The row of one swing counts the other and the twist too: where both swings are free, the goal's rotation goes along with what no spring holds.
+    private bool GoesAlong(D6Joint joint) =>
+        !(double.IsNaN(_turningGoals[1]) && double.IsNaN(_turningGoals[2])) && joint.Swing1 != AxisMotion.Locked && joint.Swing2 != AxisMotion.Locked;
+
+    // A slerp drive has no axes: it is at speeds or to goals about all three.
+    private void TellOfSlerp(D6Joint joint, int axis, bool isSpeed)
+    {
+        if (Tell is null || !IsAngle(axis) || !joint.Layout().IsSlerp)
+        {
+            return;
+        }
+
+        for (int other = FirstAngle; other < Axes; other++)
+        {
+            bool isGivenUp = isSpeed
+                ? !double.IsNaN(_turningGoals[other - FirstAngle])
+                : joint.DriveSlerp.Prescribes == Prescribed.Speed && joint.DriveAngularVelocity[other - FirstAngle] != 0;
+            if (other != axis && isGivenUp)
+            {
+                Tell(Diagnostic.Of(
+                    DiagnosticCodes.DriveShared,
+                    Pointer,
+                    ("coordinate", CoordinateWords.Table.WordOf(Document.Coordinate.X + axis)),
+                    ("how", isSpeed ? "at a speed" : "to a goal"),
+                    ("other", CoordinateWords.Table.WordOf(Document.Coordinate.X + other)),
+                    ("lost", isSpeed ? "goal" : "speed")));
+                return;
+            }
+        }
     }
 
     private static bool IsAngle(int axis) => axis >= (int)CoordinateAxis.AngularX;

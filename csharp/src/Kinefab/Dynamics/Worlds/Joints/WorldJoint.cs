@@ -2,6 +2,7 @@ using System;
 using System.Collections.Generic;
 using System.Diagnostics;
 using System.Linq;
+using Kinefab.Diagnostics;
 using Kinefab.Document;
 using Kinefab.Joints;
 using Kinefab.Numerics;
@@ -67,7 +68,10 @@ public abstract class WorldJoint
 
     internal int Index { get; }
 
-    /// <summary>Hears what settings a program gave the joint; null: of a joint that only stands in for another one.</summary>
+    /// <summary>Hears what is asked of the joint that it cannot have; null: of a joint that only stands in for another one.</summary>
+    internal Action<Diagnostic>? Tell { get; set; }
+
+    /// <summary>Hears what settings a program gave the joint; null as above.</summary>
     internal Action<WorldJoint, Document.Joint>? Given { get; set; }
 
     /// <summary>JSON pointer of its component.</summary>
@@ -100,8 +104,8 @@ public abstract class WorldJoint
     /// </summary>
     /// <param name="coordinate">As in <see cref="Coordinate"/>.</param>
     /// <param name="target">
-    /// Degrees (over any number of turns) or metres, zero at the start. Goals about several axes of a joint add up to one rotation. The angles about Y
-    /// and Z have one drive, as in Unity, and with a slerp drive all three: what drives one of them so drives the others to their goals, or at their speeds, too.
+    /// Degrees (over any number of turns) or metres, zero at the start. Goals about several axes of a joint add up to one rotation. A slerp drive has all
+    /// three angles: what drives one of them drives the others to their goals, or at their speeds, too, and <see cref="World.Findings"/> names what is given up.
     /// </param>
     /// <exception cref="ArgumentException">The joint has no such coordinate, or the target is no number.</exception>
     /// <example><code>
@@ -111,7 +115,10 @@ public abstract class WorldJoint
     /// </code></example>
     public abstract void DriveTo(Coordinate coordinate, double target);
 
-    /// <summary>Drives a coordinate at a speed, with at most the force of the component's drive or motor (0: any). Stands until Settings is set.</summary>
+    /// <summary>
+    /// Drives a coordinate at a speed, with at most the force of the component's drive or motor (0: any). Other coordinates keep their drives, but for
+    /// a slerp drive's angles, as with <see cref="DriveTo"/>. Stands until Settings is set.
+    /// </summary>
     /// <param name="coordinate">As in <see cref="Coordinate"/>.</param>
     /// <param name="speed">Degrees/s or metres/s.</param>
     /// <exception cref="ArgumentException">The joint has no such coordinate, or the speed is no number.</exception>

@@ -48,8 +48,11 @@ internal static class SimulateCommand
             string? target = parsed.GetValue(output);
             string? recordTo = parsed.GetValue(record);
             string? replayOf = parsed.GetValue(replay);
-            if ((batch.FaultOfSingle("--output", target) ?? batch.FaultOfSingle("--record", recordTo) ?? batch.FaultOfSingle("--replay", replayOf) ?? batch.FaultOfTarget("--record", recordTo)) is string fault)
-                return WrongUsage.Refuse(fault);
+            string? wrong = batch.FaultOfSingle("--output", target) ?? batch.FaultOfSingle("--record", recordTo) ?? batch.FaultOfSingle("--replay", replayOf)
+                ?? batch.FaultOfTarget("--output", target) ?? batch.FaultOfTarget("--record", recordTo)
+                ?? batch.FaultOfSame(("--replay", replayOf), ("--record", recordTo), ("--output", target));
+            if (wrong is not null)
+                return WrongUsage.Refuse(wrong);
             var run = new Run(parsed.GetValue(seconds) ?? 0, parsed.GetValue(step), parsed.GetValue(solver), target, parsed.GetValue(drives) ?? [], batch.IsJson)
             {
                 RecordTo = recordTo,

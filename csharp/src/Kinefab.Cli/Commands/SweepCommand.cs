@@ -26,7 +26,7 @@ internal static class SweepCommand
         {
             SceneBatch batch = scenes.Of(parsed);
             string? target = parsed.GetValue(output);
-            if (batch.FaultOfSingle("--output", target) is string fault)
+            if ((batch.FaultOfSingle("--output", target) ?? batch.FaultOfTarget("--output", target) ?? batch.FaultOfSame(("--output", target))) is string fault)
                 return WrongUsage.Refuse(fault);
             var run = new Run(parsed.GetRequiredValue(joint), parsed.GetValue(from), parsed.GetValue(to), parsed.GetValue(steps), target, parsed.GetValue(animation), batch.IsJson);
             return batch.Run(run.Of);

@@ -31,6 +31,19 @@ internal sealed class SceneBatch(string command, IReadOnlyList<string> files, bo
             ? $"{option} {path}: it is one of the scene files, and would be lost."
             : null;
 
+    /// <summary>Why the files that options name cannot all be written, the JUnit report among them; null: they can.</summary>
+    internal string? FaultOfSame(params (string Option, string? Path)[] targets)
+    {
+        var seen = new Dictionary<string, string>(StringComparer.Ordinal);
+        foreach ((string option, string? path) in targets.Append(("--junit", junit)))
+        {
+            if (!string.IsNullOrEmpty(path) && !seen.TryAdd(Path.GetFullPath(path), option))
+                return $"{option} {path}: it is {seen[Path.GetFullPath(path)]}'s file too, and one of the two would be lost.";
+        }
+
+        return null;
+    }
+
     /// <summary>Does something with every file and gives the exit code: the greatest of all.</summary>
     internal int Run(Func<string, SceneOutcome> each)
     {

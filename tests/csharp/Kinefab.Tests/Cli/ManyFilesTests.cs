@@ -125,9 +125,11 @@ public sealed class ManyFilesTests
     // What is left out behind --junit or --record makes the first scene its value.
     [TestCase("validate", "--junit")]
     [TestCase("simulate", "--record", "--seconds", "0.1")]
+    [TestCase("simulate", "--output", "--seconds", "0.1")]
+    [TestCase("sweep", "--output", "--joint", "Crank")]
     public void Target_ThatIsASceneOfTheCall_IsRefused(string command, string option, params string[] more)
     {
-        string scene = Path.Combine(Folder(), "scene.kinefab"), other = Path.Combine(Path.GetDirectoryName(scene)!, ".", "scene.kinefab");
+        string scene = Path.Combine(Folder(), "scene.json"), other = Path.Combine(Path.GetDirectoryName(scene)!, ".", "scene.json");
         File.Copy(Valid, scene);
         (int exit, _, string findings) = CommandLineTests.Run([command, scene, option, other, .. more]);
         Assert.That((exit, findings.TrimEnd()), Is.EqualTo((2, $"{option} {other}: it is one of the scene files, and would be lost.")));

@@ -51,8 +51,29 @@ public sealed class RecordingTests
 
         (int exit, _, string findings) = CommandLineTests.Run("simulate", Scene, "--replay", record);
 
-        Assert.That((exit, findings), Is.EqualTo((1, findings)));
+        Assert.That(exit, Is.EqualTo(1));
         Assert.That(findings, Does.Contain($"error RECORDING_DIFFERS: {where} the first that differs from the recording {record}."));
+    }
+
+    // The second that is written took the first one's place; over the recording of a replay, the recording's.
+    [TestCase("--record", "-o", "--output")]
+    [TestCase("--record", "--junit", "--junit")]
+    [TestCase("--output", "--junit", "--junit")]
+    public void Simulate_TwoTargetsInOneFile_AreRefused(string first, string second, string named)
+    {
+        string file = File("run.json"), again = Path.Combine(_folder, ".", "run.json");
+        (int exit, string data, string findings) = CommandLineTests.Run("simulate", Scene, "--seconds", "0.1", first, file, second, again);
+        Assert.That((exit, data, findings.TrimEnd()), Is.EqualTo((2, "", $"{named} {again}: it is {first}'s file too, and one of the two would be lost.")));
+        Assert.That(System.IO.File.Exists(file), Is.False);
+    }
+
+    [Test]
+    public void Replay_IntoItsOwnRecording_IsRefused()
+    {
+        string record = Record(1), kept = System.IO.File.ReadAllText(record);
+        (int exit, _, string findings) = CommandLineTests.Run("simulate", Scene, "--replay", record, "--junit", record);
+        Assert.That((exit, findings.TrimEnd()), Is.EqualTo((2, $"--junit {record}: it is --replay's file too, and one of the two would be lost.")));
+        Assert.That(System.IO.File.ReadAllText(record), Is.EqualTo(kept));
     }
 
     [Test]

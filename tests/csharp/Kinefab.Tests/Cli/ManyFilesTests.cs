@@ -136,6 +136,25 @@ public sealed class ManyFilesTests
         Assert.That(File.ReadAllText(scene), Is.EqualTo(File.ReadAllText(Valid)));
     }
 
+    // One file was listed forty times, until the system had enough of the links.
+    [Test]
+    public void Patterns_OverLinksThatLeadBack_ListEachFileOnce()
+    {
+        string folder = Folder();
+        Directory.CreateDirectory(Path.Combine(folder, "v2"));
+        File.Copy(Valid, Path.Combine(folder, "a.kinefab"));
+        File.Copy(Valid, Path.Combine(folder, "v2", "b.kinefab"));
+        Directory.CreateSymbolicLink(Path.Combine(folder, "v2", "back"), "..");
+        Directory.CreateSymbolicLink(Path.Combine(folder, "current"), "v2");
+
+        Assert.That(Files("**/*.kinefab"), Is.EqualTo(["a.kinefab", "v2/b.kinefab"]));
+        Assert.That(Files("cur*/*.kinefab"), Is.EqualTo(["current/b.kinefab"]), "a link that is asked for");
+        Assert.That(Files("cur*/**/*.kinefab"), Is.EqualTo(["current/b.kinefab", "current/back/a.kinefab"]));
+
+        string[] Files(string pattern) =>
+            [.. Lines(CommandLineTests.Run("validate", folder + "/" + pattern).Data).Select(line => line[(folder.Length + 1)..line.LastIndexOf(": valid", StringComparison.Ordinal)])];
+    }
+
     [Test]
     public void Output_ForSeveralFiles_IsRefused()
     {

@@ -61,7 +61,7 @@ def log(report: Report) -> None:
     rank = {Severity.INFO: 0, Severity.WARNING: 1, Severity.ERROR: 2}
     style = {Severity.INFO: "dim", Severity.WARNING: "yellow", Severity.ERROR: "red"}
     most = MOST_ALIKE if verbosity > 0 else MOST_WARNINGS
-    where = "--json lists all, where the command has it" + ("." if verbosity > 0 else f"; kinefab -v the first {MOST_ALIKE}.")
+    where = "--json lists all." if verbosity > 0 else f"--json lists all, kinefab -v the first {MOST_ALIKE}."
     shown = [found for found in listed(report.diagnostics, most, where) if rank[found.severity] >= least]
     if not shown:  # nor is there a reason to wait for rich
         return

@@ -119,7 +119,7 @@ public sealed class WorldStepTests
     [Test]
     public void JointBroken_AHandlerThatThrows_KeepsNothingFromTheOthers()
     {
-        GameObject[] hung = [.. new[] { "a", "b" }.Select(id => new GameObject { Id = id, Name = id, Components = [new Rigidbody(), new FixedJoint { BreakForce = 1 }] })];
+        GameObject[] hung = [.. Enumerable.Range(0, 2).Select(i => new GameObject { Id = $"{i}", Name = $"{i}", Components = [new Rigidbody(), new FixedJoint { BreakForce = 1 }] })];
         World world = World.Create(SmallScene.Validate(new SceneDocument { GameObjects = hung }));
         var broken = new List<WorldJoint>();
         world.JointBroken += (_, _) => throw new InvalidTimeZoneException();

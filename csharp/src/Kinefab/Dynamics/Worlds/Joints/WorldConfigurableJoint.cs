@@ -28,6 +28,9 @@ public sealed class WorldConfigurableJoint : WorldJoint
 
     // Of the angles too, but with their whole turns; NaN where DriveTo set none.
     private readonly double[] _turningGoals = { double.NaN, double.NaN, double.NaN };
+
+    // Whether a program drives the angle about Y, and about Z.
+    private readonly bool[] _isSwingDriven = new bool[2];
     private readonly double[] _speeds = new double[Axes];
     private ConfigurableJoint _settings;
 
@@ -75,6 +78,7 @@ public sealed class WorldConfigurableJoint : WorldJoint
             UnityJoints.Apply(value, (D6Joint)Solved);
             ConfigurableDrives.Goals((D6Joint)Solved).CopyTo(_goals, 0);
             Array.Fill(_turningGoals, double.NaN);
+            Array.Clear(_isSwingDriven, 0, _isSwingDriven.Length);
         }
     }
 
@@ -96,7 +100,7 @@ public sealed class WorldConfigurableJoint : WorldJoint
         Finite.OrThrow(target, nameof(target));
         var joint = (D6Joint)Solved;
         TellOfSlerp(joint, i, isSpeed: false);
-        ConfigurableDrives.Of(joint, i) = PositionDrive(OwnDrive(i));
+        SetDrive(joint, i, PositionDrive(OwnDrive(i)));
         ConfigurableDrives.SetSpeed(joint, i, 0);
         double goal = _sign * ((IsAngle(i) ? target / Degrees : target) + _start[i]);
         if (IsAngle(i))
@@ -125,7 +129,7 @@ public sealed class WorldConfigurableJoint : WorldJoint
             _turningGoals[i - FirstAngle] = double.NaN;
         }
 
-        ConfigurableDrives.Of(joint, i) = new Kinefab.Joints.DriveModel { Damping = damping, ForceLimit = ForceLimit(OwnDrive(i).ForceLimit), IsAcceleration = true, Prescribes = Kinefab.Joints.Prescribed.Speed };
+        SetDrive(joint, i, new Kinefab.Joints.DriveModel { Damping = damping, ForceLimit = ForceLimit(OwnDrive(i).ForceLimit), IsAcceleration = true, Prescribes = Kinefab.Joints.Prescribed.Speed });
         ConfigurableDrives.SetSpeed(joint, i, _sign * (IsAngle(i) ? speed / Degrees : speed));
     }
 
@@ -195,6 +199,7 @@ public sealed class WorldConfigurableJoint : WorldJoint
         tape.Array(_unwrapped);
         tape.Array(_goals);
         tape.Array(_turningGoals);
+        tape.Array(_isSwingDriven);
         tape.Array(_speeds);
     }
 
@@ -204,6 +209,23 @@ public sealed class WorldConfigurableJoint : WorldJoint
         (AxisMotion own, AxisMotion other) = angle == 1 ? (joint.Swing1, joint.Swing2) : (joint.Swing2, joint.Swing1);
         return angle > 0 && own == AxisMotion.Limited && (other == AxisMotion.Locked || joint.Twist == AxisMotion.Locked)
             && !joint.SwingLimit.Response.IsSoft && !joint.IsBroken;
+    }
+
+    // In Unity the two swings have one drive: it holds the one that a program does not drive by itself.
+    private void SetDrive(D6Joint joint, int axis, in Kinefab.Joints.DriveModel drive)
+    {
+        ConfigurableDrives.Of(joint, axis) = drive;
+        int swing = axis - (int)CoordinateAxis.AngularY;
+        if (swing < 0 || joint.Layout().IsSlerp)
+        {
+            return;
+        }
+
+        _isSwingDriven[swing] = true;
+        if (!_isSwingDriven[1 - swing])
+        {
+            ConfigurableDrives.Of(joint, (int)CoordinateAxis.AngularY + 1 - swing) = drive;
+        }
     }
 
     // The row of one swing counts the other and the twist too: where both swings are free, the goal's rotation goes along with what no spring holds.

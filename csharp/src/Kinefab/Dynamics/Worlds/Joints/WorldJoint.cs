@@ -104,8 +104,9 @@ public abstract class WorldJoint
     /// </summary>
     /// <param name="coordinate">As in <see cref="Coordinate"/>.</param>
     /// <param name="target">
-    /// Degrees (over any number of turns) or metres, zero at the start. Goals about several axes of a joint add up to one rotation. A slerp drive has all
-    /// three angles: what drives one of them drives the others to their goals, or at their speeds, too, and <see cref="World.Findings"/> names what is given up.
+    /// Degrees (over any number of turns) or metres, zero at the start. Goals about several axes of a joint add up to one rotation. The angles about Y and Z
+    /// have one drive, as in Unity: it holds the one that is not driven by itself. A slerp drive has all three: what drives one of them drives the others to
+    /// their goals, or at their speeds, too, and <see cref="World.Findings"/> names what is given up.
     /// </param>
     /// <exception cref="ArgumentException">The joint has no such coordinate, or the target is no number.</exception>
     /// <example><code>

@@ -137,6 +137,7 @@ internal abstract class JointModel
         LimitsFromAfar = copy.LimitsFromAfar;
         LastTwist = copy.LastTwist;
         IsBroken = copy.IsBroken;
+        _isCounted = copy._isCounted;
     }
 
     /// <summary>

@@ -135,7 +135,7 @@ internal sealed class MachineSceneTests
     [TestCase(8001301)]
     [TestCase(8002651)]
     [TestCase(8002878)]
-    [TestCase(8003090)]
+    [TestCase(8003738)]
     public void Step_DrivesAndLimitThatNearlyDependOnEachOther_TakesFewParts(int seed) => AssertTakesFewParts(seed);
 
     /// <summary>

@@ -1,3 +1,4 @@
+using System;
 using System.Collections.Generic;
 using Kinefab.Numerics;
 
@@ -25,6 +26,12 @@ internal sealed class CoordinateCoupling
     /// <summary>The rows of the coordinates where they were evaluated last.</summary>
     public readonly ConstraintRow[] Rows;
 
+    /// <summary>Index of the one coordinate that is an <see cref="AngleAmongOthers"/>; -1: there is none, or are several.</summary>
+    public readonly int Among;
+
+    /// <summary>That one where the rows were evaluated last.</summary>
+    public AngleAmongOthers Angle;
+
     public CoordinateCoupling(CoordinateAxisMap driven, IReadOnlyList<(CoordinateAxisMap Coordinate, double Ratio)> terms, double offset)
     {
         Coordinates = new CoordinateAxisMap[terms.Count + 1];
@@ -40,6 +47,12 @@ internal sealed class CoordinateCoupling
         Offset = offset;
         Last = new double[Coordinates.Length];
         Rows = new ConstraintRow[Coordinates.Length];
+        Among = Array.FindIndex(Coordinates, IsAmongOthers);
+        Among = Among >= 0 && Array.FindIndex(Coordinates, Among + 1, IsAmongOthers) >= 0 ? -1 : Among;
+        if (Among >= 0)
+        {
+            ((D6Joint)Coordinates[Among].Joint).CoupledAngles |= 1 << (Coordinates[Among].Axis - CoordinateAxis.AngularX);
+        }
     }
 
     /// <summary>Whether none of its joints has broken.</summary>
@@ -59,7 +72,63 @@ internal sealed class CoordinateCoupling
         }
     }
 
+    private static bool IsAmongOthers(CoordinateAxisMap coordinate) =>
+        coordinate.IsAngle && coordinate.Joint is D6Joint joint
+        && (joint.Twist != AxisMotion.Locked ? 1 : 0) + (joint.Swing1 != AxisMotion.Locked ? 1 : 0) + (joint.Swing2 != AxisMotion.Locked ? 1 : 0) > 1;
+
     /// <summary>Factor times coordinate at the poses of its joint's bodies; its row is noted in <see cref="Rows"/>.</summary>
     public double Evaluate(int coordinate, in Pose body0, in Pose body1) =>
         Factors[coordinate] * Coordinates[coordinate].Evaluate(body0, body1, Last[coordinate], out Rows[coordinate]);
+
+    /// <summary>
+    /// The one angle of a coupling whose joint turns about other axes too, as a ball's twist: 2 atan2(q_i, q_w) of the relative rotation q, which has no
+    /// value, and a gradient without end, where the others come to half a turn. The coupling says what it has to be, t; then
+    /// C' = 2 f (q_i cos(t / 2) - q_w sin(t / 2)) is 0 where C = f (angle - t) is, and as smooth as q: its row passes there as anywhere else.
+    /// </summary>
+    public struct AngleAmongOthers
+    {
+        // Radians by which the coupling may be open; C' is 0 a whole turn off, too.
+        private const double MostOpen = 1;
+
+        private Quaterniond _built;
+
+        /// <summary>Whether C' stands for C, from the pose at which the rows were built last.</summary>
+        public bool IsActive;
+
+        /// <summary>What the other coordinates' rows are multiplied by: cos of half the swing, negative beyond the pole.</summary>
+        public double Weight;
+
+        /// <summary>Gradient of C' for the angular velocity of frame 1 against frame 0, in the world.</summary>
+        public Vector3d Gradient;
+
+        /// <summary>C' at a pose; keeps weight and gradient.</summary>
+        /// <param name="f">The joint's frames.</param>
+        /// <param name="axis">0, 1 or 2.</param>
+        /// <param name="angle">Angle, with its whole turns.</param>
+        /// <param name="factor">f.</param>
+        /// <param name="error">C.</param>
+        /// <param name="isBuilt">Whether rows are built at this pose, from which the next poses follow.</param>
+        public double Evaluate(in JointFrames f, int axis, double angle, double factor, double error, bool isBuilt)
+        {
+            Quaterniond q = f.Relative.Rotation;
+            double half = (angle - error / factor) / 2;
+            double cosine = Trigonometry.Cos(half), sine = Trigonometry.Sin(half);
+            if (isBuilt)
+            {
+                IsActive = Math.Abs(error / factor) < MostOpen;
+                _built = q.Vector[axis] * sine + q.W * cosine < 0 ? JointFrames.Negate(q) : q;
+            }
+
+            if (!IsActive)
+            {
+                return error;
+            }
+
+            q = JointFrames.Dot(q, _built) < 0 ? JointFrames.Negate(q) : q;
+            Vector3d along = axis == 0 ? Vector3d.UnitX : axis == 1 ? Vector3d.UnitY : Vector3d.UnitZ;
+            Weight = q.Vector[axis] * sine + q.W * cosine;
+            Gradient = f.Q0 * ((along * q.W + Vector3d.Cross(q.Vector, along)) * cosine + q.Vector * sine) * factor;
+            return 2 * factor * (q.Vector[axis] * cosine - q.W * sine);
+        }
+    }
 }

@@ -19,6 +19,9 @@ internal sealed class D6Joint : JointModel
     public AxisMotion X, Y, Z, Twist, Swing1, Swing2;
 
     public LinearLimit LinearLimit;
+
+    /// <summary>A bit for each angle: whether a coupling holds it, so that it has weight at any swing.</summary>
+    public int CoupledAngles;
     public AngularLimit TwistLimit;
     public ConeLimit SwingLimit;
 
@@ -62,6 +65,7 @@ internal sealed class D6Joint : JointModel
         var d6 = (D6Joint)copy;
         (X, Y, Z, Twist, Swing1, Swing2) = (d6.X, d6.Y, d6.Z, d6.Twist, d6.Swing1, d6.Swing2);
         LinearLimit = d6.LinearLimit;
+        CoupledAngles = d6.CoupledAngles;
         TwistLimit = d6.TwistLimit;
         SwingLimit = d6.SwingLimit;
         (DriveX, DriveY, DriveZ) = (d6.DriveX, d6.DriveY, d6.DriveZ);
@@ -253,6 +257,8 @@ internal sealed class D6Joint : JointModel
         }
     }
 
+    private bool IsCoupledAngle(int axis) => (CoupledAngles >> axis & 1) != 0;
+
     // C = c times the angle about an axis that is left to the goal, by the shorter way, J its gradient, c as of a limit: what is prescribed is met at whatever
     // swing. The torque, of J times it, keeps its limit.
     private void AngularMotion(ref RowWriter writer, in JointFrames f, int axis, Vector3d axis1, in DriveModel drive)
@@ -261,6 +267,13 @@ internal sealed class D6Joint : JointModel
         Quaterniond to = DrivePose.Rotation;
         double goal = axis == 0 && !double.IsNaN(DriveTwistAngle) ? DriveTwistAngle : 2 * Trigonometry.Atan2(to.Vector[axis], to.W);
         double angle = SwingTwist.Nearest(2 * Trigonometry.Atan2(at.Vector[axis], at.W), axis == 0 && !double.IsNaN(DriveTwistAngle) ? LastTwist : goal);
+        if (IsCoupledAngle(axis))
+        {
+            Vector3d unit = SwingTwist.WeighedGradient(f.Axis0(axis), axis1, 0, out double c);
+            writer.AngularDrive(unit * (1 / Math.Max(SwingTwist.LeastWeight, c)), 0, goal - angle, drive);
+            return;
+        }
+
         Vector3d gradient = SwingTwist.WeighedGradient(f.Axis0(axis), axis1, goal - angle, out double weight);
         DriveModel weighed = drive;
         weighed.ForceLimit /= Math.Max(SwingTwist.LeastWeight, weight);

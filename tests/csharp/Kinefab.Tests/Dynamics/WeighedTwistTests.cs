@@ -1,5 +1,6 @@
 using System;
 using System.Collections.Generic;
+using Kinefab.Document;
 using Kinefab.Dynamics;
 using Kinefab.Dynamics.Rattle;
 using Kinefab.Joints;
@@ -12,6 +13,9 @@ namespace Kinefab.Tests.Dynamics;
 /// <summary>Limits of a twist in the exact solver hold at any swing, by a row that is a gradient and grows nowhere.</summary>
 internal sealed class WeighedTwistTests
 {
+    // Metres that the slide goes for each degree of a coupled ball's twist.
+    private const double Ratio = 0.001;
+
     /// <summary>Swings up to a ten-thousandth of a radian beside half a turn, where the twist itself turns ten thousand times as fast as its joint.</summary>
     [TestCase(0.7)]
     [TestCase(Math.PI - 0.02)]
@@ -87,5 +91,73 @@ internal sealed class WeighedTwistTests
 
         Assert.That(most, Is.LessThanOrEqualTo(mostParts));
         Assert.That(m.Stops, Is.Zero);
+    }
+
+    /// <summary>
+    /// A ball whose twist moves a slide is swung over its top, or beside it, where its twist goes round faster than anything moves: what the slide weighs
+    /// holds it, and there is a motion over the top.
+    /// </summary>
+    [TestCase(1, 1e-3, 0.001)]
+    [TestCase(0.01, 0, 0.02)]
+    [TestCase(0.01, 0.05, 0.005)]
+    public void Step_CoupledBallSwungOverItsTop_KeepsItsEnergyInFewParts(double slide, double aside, double dt)
+    {
+        const double mostParts = 100;
+        World world = CoupledBall(new Vector3d(0.5, 0, 0), 0.01, slide);
+        WorldBody ball = world.Bodies[0];
+        ball.AngularVelocity = new Vector3d(0.5, aside, 7);
+        ball.LinearVelocity = Vector3d.Cross(ball.AngularVelocity, ball.Pose.Position);
+        world.Bodies[1].LinearVelocity = new Vector3d(0.5 * 180 / Math.PI * Ratio, 0, 0);
+        double start = world.KineticEnergy + world.PotentialEnergy;
+        for (int i = 0; i < 3 / dt; i++)
+        {
+            double work = world.SubstepWork;
+            world.Step(dt);
+            Assert.That(world.SubstepWork - work, Is.LessThanOrEqualTo(mostParts), $"step {i}");
+            Assert.That(world.KineticEnergy + world.PotentialEnergy, Is.EqualTo(start).Within(0.1), $"step {i}");
+        }
+
+        Assert.That(world.Joints[1].Coordinate(Coordinate.X), Is.EqualTo(Ratio * world.Joints[0].Coordinate(Coordinate.AngularX)).Within(1e-6));
+        Assert.That(world.Stops, Is.Zero);
+    }
+
+    /// <summary>A drive of the twist gets there and stays, however near the half-turn the ball swings: it had sought that, where its weight was none.</summary>
+    [Test]
+    public void DriveTo_TwistOfACoupledBall_StaysAtItsGoal([Values(10.0, 40, 90, 170)] double goal, [Values(0.02, 0.01)] double dt)
+    {
+        World world = CoupledBall(new Vector3d(0.5, 0.1, -0.2), 0.1, 1);
+        world.Joints[0].DriveTo(Coordinate.AngularX, goal);
+        for (int i = 1; i <= 10 / dt; i++)
+        {
+            world.Step(dt);
+            Assert.That(i * dt < 3 ? goal : world.Joints[0].Coordinate(Coordinate.AngularX), Is.EqualTo(goal).Within(1e-3), $"step {i}");
+        }
+
+        Assert.That(world.Findings.Diagnostics, Is.Empty);
+    }
+
+    private static World CoupledBall(Vector3d start, double aboutX, double slide)
+    {
+        const ConfigurableJointMotion free = ConfigurableJointMotion.Free, locked = ConfigurableJointMotion.Locked;
+        var ball = new ConfigurableJoint
+        {
+            Anchor = start * -1, Axis = Vector3d.UnitX, SecondaryAxis = Vector3d.UnitY, XMotion = locked, YMotion = locked, ZMotion = locked,
+            AngularXMotion = free, AngularYMotion = free, AngularZMotion = free,
+        };
+        return World.Create(
+            SmallScene.Validate(new SceneDocument
+            {
+                GameObjects =
+                [
+                    Body("ball", start, new Rigidbody { Mass = 1.3, InertiaTensor = new Vector3d(aboutX, 0.11, 0.12), AngularDamping = 0, MaxAngularVelocity = 1000 }, ball),
+                    Body("slide", new Vector3d(2, 0, 0), new Rigidbody { Mass = slide, InertiaTensor = new Vector3d(1, 1, 1) }, ball with { Anchor = Vector3d.Zero, XMotion = free, AngularXMotion = locked, AngularYMotion = locked, AngularZMotion = locked }),
+                ],
+                Couplings = [new Coupling { Kind = CouplingKind.Rack, A = At(0, Coordinate.AngularX), B = At(1, Coordinate.X), Ratio = Ratio }],
+            }),
+            SolverKind.Exact);
+
+        static JointCoordinate At(int body, Coordinate coordinate) => new() { GameObject = body, Component = 1, Coordinate = coordinate };
+        static GameObject Body(string id, Vector3d at, Rigidbody body, Joint joint) =>
+            new() { Id = id, Name = id, Transform = SmallScene.At(new Pose(at, Quaterniond.Identity)), Components = [body, joint] };
     }
 }

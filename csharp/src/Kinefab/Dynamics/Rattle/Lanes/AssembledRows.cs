@@ -125,7 +125,7 @@ internal static class AssembledRows<V>
     private static bool IsLoneAngle(RowBlock block, in ConstraintRow row) =>
         block.Angular == AngularForm.Prepared && row.Hint == SolveHint.Equality && row.Has(RowFlags.Angular);
 
-    private static double Couple(LaneRecords<V> batch, int n, RowBlock block)
+    private static double Couple(LaneRecords<V> batch, int n, RowBlock block, bool isBuilt = false)
     {
         int[] sides = block.CouplingSides;
         CoordinateCoupling coupling = batch.Couplings[n]!;
@@ -135,21 +135,38 @@ internal static class AssembledRows<V>
             sum += coupling.Evaluate(i, PoseOf(batch, block.Bodies[sides[2 * i]]), PoseOf(batch, block.Bodies[sides[2 * i + 1]]));
         }
 
-        return sum - coupling.Offset;
+        sum -= coupling.Offset;
+        int among = coupling.Among;
+        if (among >= 0)
+        {
+            CoordinateAxisMap angle = coupling.Coordinates[among];
+            angle.Joint.FramesAt(PoseOf(batch, block.Bodies[sides[2 * among]]), PoseOf(batch, block.Bodies[sides[(2 * among) + 1]]), out JointFrames f);
+            return coupling.Angle.Evaluate(f, angle.Axis - CoordinateAxis.AngularX, angle.Sign * coupling.Rows[among].GeometricError, angle.Sign * coupling.Factors[among], sum, isBuilt);
+        }
+
+        return sum;
     }
 
     // J = sum of factor times row, added up on the bodies that several joints touch.
     private static void BuildCoupling(LaneRecords<V> batch, int n, RowBlock block)
     {
-        Couple(batch, n, block);
+        Couple(batch, n, block, isBuilt: true);
         int first = batch.Row(n, 0, 0);
         Array.Clear(batch.Linear, first, 3 * block.Bodies.Length);
         Array.Clear(batch.Angular, first, 3 * block.Bodies.Length);
         CoordinateCoupling coupling = batch.Couplings[n]!;
+        bool isWeighed = coupling.Among >= 0 && coupling.Angle.IsActive;
         for (int i = 0; i < coupling.Rows.Length; i++)
         {
-            Add(batch, n, block.CouplingSides[2 * i], coupling.Rows[i].Linear0, coupling.Rows[i].Angular0, coupling.Factors[i]);
-            Add(batch, n, block.CouplingSides[2 * i + 1], coupling.Rows[i].Linear1, coupling.Rows[i].Angular1, -coupling.Factors[i]);
+            double factor = coupling.Factors[i] * (isWeighed ? coupling.Angle.Weight : 1);
+            if (isWeighed && i == coupling.Among)
+            {
+                coupling.Rows[i].Angular0 = coupling.Rows[i].Angular1 = -coupling.Angle.Gradient;
+                factor = 1;
+            }
+
+            Add(batch, n, block.CouplingSides[2 * i], coupling.Rows[i].Linear0, coupling.Rows[i].Angular0, factor);
+            Add(batch, n, block.CouplingSides[2 * i + 1], coupling.Rows[i].Linear1, coupling.Rows[i].Angular1, -factor);
         }
     }
 

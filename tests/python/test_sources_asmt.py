@@ -194,7 +194,7 @@ def test_the_written_shafts_are_valid_and_move(tmp_path: Path):
     asked = (
         ("validate", "--strict", "0 errors"),
         ("mobility", "mobility   1, 1 in the file"),
-        ("sweep", "--joint", "A/In.angle", "A/Out[1].angularX -360 to 0 deg"),
+        ("sweep", "--joint", "A/In.angle", 'A/Out[1].angularX "Sleeve.angularX" -360 to 0 deg'),
     )
     for word, *words, wanted in asked:
         command = ["dotnet-kinefab", word, str(tmp_path / "a.kinefab"), *words]

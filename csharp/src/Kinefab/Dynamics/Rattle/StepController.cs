@@ -233,6 +233,7 @@ internal sealed partial class StepController
                     break;
                 }
 
+                // Before the step counts, what holds the drive that ran away is looked for.
                 Return(_start, _dt);
                 _hasMoved = false;
                 FindHeldDrives();

@@ -20,11 +20,11 @@ internal static class ExactSolverCheck
             {
                 if (objects[i].Components[c] is Joint { Enabled: true } joint && HasMassScales(joint))
                 {
-                    found.Add(Finding(DiagnosticCodes.MassScaleIgnored, $"/gameObjects/{Text(i)}/components/{Text(c)}", MassScales(joint)));
+                    found.Add(Diagnostic.Of(DiagnosticCodes.MassScaleIgnored, $"/gameObjects/{Text(i)}/components/{Text(c)}", MassScales(joint)));
                 }
                 else if (objects[i].Components[c] is ArticulationBody link && !scene.IsRootLink(i) && LeftOut(link) is string what)
                 {
-                    found.Add(Finding(DiagnosticCodes.LinkNotExact, $"/gameObjects/{Text(i)}/components/{Text(c)}", ("what", what), ("object", objects[i].Id)));
+                    found.Add(Diagnostic.Of(DiagnosticCodes.LinkNotExact, $"/gameObjects/{Text(i)}/components/{Text(c)}", ("what", what), ("object", objects[i].Id)));
                 }
             }
         }
@@ -57,12 +57,6 @@ internal static class ExactSolverCheck
         LinkJoint.TurnMotion(link, axis) != ConfigurableJointMotion.Locked && drive.DriveType != ArticulationDriveType.Velocity && (drive.Stiffness > 0 || drive.DriveType == ArticulationDriveType.Target);
 
     private static bool Lopsided(ConfigurableJointMotion motion, ArticulationDrive drive) => motion == ConfigurableJointMotion.Limited && drive.LowerLimit != -drive.UpperLimit;
-
-    private static Diagnostic Finding(string code, string pointer, params (string Name, string Value)[] values)
-    {
-        DiagnosticTable.Entry entry = DiagnosticTable.Entries[code];
-        return new Diagnostic(code, entry.Severity, DiagnosticTable.Fill(entry.Message, values), DiagnosticTable.Fill(entry.Remedy, values), pointer, null, null);
-    }
 
     private static string Text(double number) => number.ToString(CultureInfo.InvariantCulture);
 }

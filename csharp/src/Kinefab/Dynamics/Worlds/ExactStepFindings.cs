@@ -96,7 +96,7 @@ internal sealed class ExactStepFindings
     {
         int joint = of == null ? -1 : Array.IndexOf(mechanism.Joints, of);
         return joint >= 0 && joint < joints.Count
-            ? (joints[joint].Id, $"/gameObjects/{Text(joints[joint].GameObject)}/components/{Text(joints[joint].Component)}")
+            ? (joints[joint].Id, joints[joint].Pointer)
             : (bodies[body].Id, $"/gameObjects/{Text(bodies[body].GameObject)}");
     }
 

@@ -1,5 +1,4 @@
 using System.Collections.Generic;
-using System.Globalization;
 using Kinefab.Diagnostics;
 using Kinefab.Dynamics.Rattle;
 
@@ -29,14 +28,7 @@ internal static class InexactLoopCheck
                 }
             }
 
-            const string code = DiagnosticCodes.LoopInconsistent;
-            (string Name, string Value)[] values = { ("joints", string.Join(", ", ids)) };
-            DiagnosticTable.Entry entry = DiagnosticTable.Entries[code];
-            WorldJoint first = joints[loop.Joints[0]];
-            string pointer = $"/gameObjects/{Text(first.GameObject)}/components/{Text(first.Component)}";
-            yield return new Diagnostic(code, entry.Severity, DiagnosticTable.Fill(entry.Message, values), entry.Remedy, pointer, null, null);
+            yield return Diagnostic.Of(DiagnosticCodes.LoopInconsistent, joints[loop.Joints[0]].Pointer, ("joints", string.Join(", ", ids)));
         }
     }
-
-    private static string Text(int number) => number.ToString(CultureInfo.InvariantCulture);
 }

@@ -74,8 +74,8 @@ internal sealed partial class ActiveSet<V>
     }
 
     /// <summary>
-    /// Where no drift is short enough not to pass a limit: holds it from the piece's start on, where its joint stands at it and hardly leaves it, as where a
-    /// drive without limit of force pushes it back at once, or what other rows are open by is more than the way by which it leaves. False where it is another.
+    /// Where no drift is short enough not to pass a limit: holds it from the piece's start on, where its joint is thrown back and comes to it again at once, as
+    /// where a drive without limit of force pushes it, or so soon that bounces have died out. False where it is another.
     /// </summary>
     /// <param name="index">The row's.</param>
     /// <param name="isAny">Whether any hard limit is held so: a joint that is thrown back by a stiff damper, or moved by closing other rows.</param>

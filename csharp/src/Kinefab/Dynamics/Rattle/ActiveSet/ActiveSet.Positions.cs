@@ -68,7 +68,7 @@ internal sealed partial class ActiveSet<V>
     }
 
     /// <summary>Whether a drive without limit of force that was not slowed down ran away in the step: what holds it is worth a look, see <see cref="HeldDrives"/>.</summary>
-    public bool HasRunAway { get; set; }
+    public bool HasRunAway { get; private set; }
 
     /// <summary>Whether a move leads a drive without limit of force far beyond what no mechanism needs: rows that nearly depend on each other.</summary>
     /// <param name="move">Of all rows.</param>
@@ -78,9 +78,13 @@ internal sealed partial class ActiveSet<V>
         for (int i = 0; i < _rows.Length; i++)
         {
             ref ScalarRow scalar = ref _rows[i];
+            if (scalar.State != RowState.Free || !scalar.AsksForSpeed || !scalar.IsEndless)
+            {
+                continue;
+            }
+
             double impulse = _batch.Work.PositionImpulses[scalar.Index] + move[scalar.Index];
-            bool isBeyond = impulse > MostBeyond * scalar.Theta * scalar.High || impulse < MostBeyond * scalar.Theta * scalar.Low;
-            if (isBeyond && scalar.State == RowState.Free && scalar.AsksForSpeed && scalar.IsEndless)
+            if (impulse > MostBeyond * scalar.Theta * scalar.High || impulse < MostBeyond * scalar.Theta * scalar.Low)
             {
                 isAny = true;
                 HasRunAway |= scalar.Pace.Slowdowns == 0;

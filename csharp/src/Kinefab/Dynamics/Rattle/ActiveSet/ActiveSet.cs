@@ -156,37 +156,6 @@ internal sealed partial class ActiveSet<V>
         }
     }
 
-    /// <summary>Holds the hard limits that are passed where the rows were last built, and nothing else; writes their J and C.</summary>
-    /// <param name="keepsAllowed">Whether a limit may stand passed as far as it was left so.</param>
-    public void ActivateViolated(bool keepsAllowed)
-    {
-        for (int i = 0; i < _rows.Length; i++)
-        {
-            ref ScalarRow scalar = ref _rows[i];
-            scalar.Kind = scalar.IsActive && scalar.Built.IsHardLimit ? RowKind.Limit : RowKind.None;
-            double error = scalar.Built.GeometricError - (keepsAllowed ? scalar.Limit.Allowed : 0);
-            bool isPassed = scalar.Kind == RowKind.Limit && error < 0;
-            scalar.State = isPassed ? RowState.Free : RowState.AtBound;
-            _batch.Work.Error[scalar.Index] = isPassed ? error : 0;
-        }
-
-        WriteRows(false);
-    }
-
-    /// <summary>Lets hard limits stand passed as far as they are where the rows were last built; false where none is.</summary>
-    public bool AllowPassed()
-    {
-        bool isAny = false;
-        for (int i = 0; i < _rows.Length; i++)
-        {
-            ref ScalarRow scalar = ref _rows[i];
-            scalar.Limit.Allowed = scalar.IsActive && scalar.Built.IsHardLimit ? Math.Min(0, scalar.Built.GeometricError) : 0;
-            isAny |= scalar.Limit.Allowed < 0;
-        }
-
-        return isAny;
-    }
-
     /// <summary>Clears a right-hand side where the impulse is not the matrix's to find.</summary>
     public void ClearAtBound(double[] vector)
     {
@@ -212,21 +181,6 @@ internal sealed partial class ActiveSet<V>
                 angular += scalar.Built.Angular0 * _batch.Work.TotalImpulses[scalar.Index];
             }
         }
-    }
-
-    /// <summary>Whether a limit stands passed by more than it was left so: its joint's fields were changed.</summary>
-    public bool IsNewlyPassed()
-    {
-        for (int i = 0; i < _rows.Length; i++)
-        {
-            ref ScalarRow scalar = ref _rows[i];
-            if (scalar.IsActive && scalar.Built.IsHardLimit && scalar.Built.GeometricError < scalar.Limit.Allowed - ScalarRow.MostClosedByDrift)
-            {
-                return true;
-            }
-        }
-
-        return false;
     }
 
     /// <summary>Which of the rows may be to blame where no step is found from the pose that is built.</summary>

@@ -256,11 +256,17 @@ internal static class Impulses<V>
     }
 
     /// <summary>Speed of such a row by the momenta and the built inverse inertias.</summary>
-    public static double Speed(LaneRecords<V> batch, int block, in ConstraintRow row)
+    /// <param name="batch">The rows and bodies.</param>
+    /// <param name="block">The row's.</param>
+    /// <param name="row">J.</param>
+    /// <param name="areFixedMoving">Whether kinematic bodies count with their velocities.</param>
+    public static double Speed(LaneRecords<V> batch, int block, in ConstraintRow row, bool areFixedMoving = true)
     {
         int[] bodies = batch.Shape.Blocks[block].Bodies;
+        bool is0 = areFixedMoving || bodies[0] < batch.Shape.MovingBodies, is1 = areFixedMoving || bodies[1] < batch.Shape.MovingBodies;
         return row.Velocity(
-            Vector(batch, bodies[0], BodyLanes.V), AngularVelocity(batch, bodies[0]), Vector(batch, bodies[1], BodyLanes.V), AngularVelocity(batch, bodies[1]));
+            is0 ? Vector(batch, bodies[0], BodyLanes.V) : Vector3d.Zero, is0 ? AngularVelocity(batch, bodies[0]) : Vector3d.Zero,
+            is1 ? Vector(batch, bodies[1], BodyLanes.V) : Vector3d.Zero, is1 ? AngularVelocity(batch, bodies[1]) : Vector3d.Zero);
     }
 
     /// <summary>

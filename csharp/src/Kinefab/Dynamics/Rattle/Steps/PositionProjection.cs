@@ -6,7 +6,7 @@ namespace Kinefab.Dynamics.Rattle;
 /// <summary>
 /// Closes a pose that stands open, of a scene as it starts or written from outside, by position alone: the drift would do
 /// it with speeds of gap / h, most of which stay. Gauss-Newton on C in the metric of the masses: x += M^-1 J^T l with
-/// J M^-1 J^T l = -C, the whole of it shortened where a body would turn far. Hard limits that are passed take part.
+/// J M^-1 J^T l = -C, the whole of it shortened where a body would turn far. Hard limits that are passed take part, and those that a move would pass.
 /// Locked turns count by their angle, which leads back from anywhere; the sines of <see cref="BilateralRows{V}"/> lead to the
 /// wrong side beyond a right angle.
 /// </summary>
@@ -36,6 +36,9 @@ internal sealed class PositionProjection
     // Velocities and angular momenta, whose place the moves take.
     private readonly double[] _momenta;
     private bool _keepsAllowed;
+
+    // Whether limits that a move would pass take part in it.
+    private bool _looksAhead = true;
 
     public PositionProjection(LaneBatch<ScalarLane> batch, ConjugateGradient conjugateGradient)
     {
@@ -69,7 +72,7 @@ internal sealed class PositionProjection
         SaveStart();
         bool isOpen = IsOpen();
         bool isTorn = isOpen && AreJointsOpen();
-        bool isClosed = isOpen && (Iterate(tolerance) || (isTorn && TryWithLimitsAsTheyStand(tolerance)));
+        bool isClosed = isOpen && (Iterate(tolerance) || TryLimitByLimit(tolerance) || (isTorn && TryWithLimitsAsTheyStand(tolerance)));
         for (int body = 0; body < _batch.Shape.MovingBodies; body++)
         {
             Finish(body, isClosed);
@@ -123,6 +126,17 @@ internal sealed class PositionProjection
         }
 
         return false;
+    }
+
+    // By the limits alone that are passed before each move, which have less to agree on.
+    private bool TryLimitByLimit(double tolerance)
+    {
+        FreeMotion<ScalarLane>.Stay(_batch);
+        RattleStep<ScalarLane>.Rebuild(_batch);
+        _looksAhead = false;
+        bool isClosed = _batch.ActiveSet != null && Iterate(tolerance);
+        _looksAhead = true;
+        return isClosed;
     }
 
     // Limits that cannot be closed with the rest stay passed as far as they are: see LimitEvent.Allowed.
@@ -226,35 +240,49 @@ internal sealed class PositionProjection
         }
     }
 
+    // The least move, in the metric of the masses, that closes what is open to first order and passes no limit: a quadratic program, whose active set is found
+    // as those of the steps are.
+    private void FindMove(bool byTrueResponse)
+    {
+        double[] solution = _batch.Work.Solution;
+        for (int pass = 0; ; pass++)
+        {
+            DelassusMatrix<ScalarLane>.Assemble(_batch, _batch.Shape.IsInconsistent ? DelassusMatrix<ScalarLane>.UnconstrainedShare : _batch.AngularShare);
+            _batch.ActiveSet?.AddToDiagonal(false);
+            DelassusMatrix<ScalarLane>.Factor(_batch);
+            for (int i = 0; i < solution.Length; i++)
+            {
+                solution[i] = -_batch.Work.Error[i];
+            }
+
+            if (byTrueResponse && !_batch.Shape.IsInconsistent)
+            {
+                _conjugateGradient.Solve(false);
+            }
+            else
+            {
+                DelassusMatrix<ScalarLane>.Solve(_batch, solution);
+            }
+
+            for (int body = 0; body < _batch.Shape.MovingBodies; body++)
+            {
+                Array.Clear(_batch.Bodies, LaneBatch<ScalarLane>.Body(body, BodyLanes.V), 6);
+            }
+
+            _batch.Work.Active[0] = 1;
+            Impulses<ScalarLane>.Apply(_batch, solution);
+            if (_batch.ActiveSet == null || !_looksAhead || !_batch.ActiveSet.UpdateClosing(pass, solution, _keepsAllowed))
+            {
+                return;
+            }
+        }
+    }
+
     private bool Move(bool byTrueResponse)
     {
+        FindMove(byTrueResponse);
         Island shape = _batch.Shape;
-        double[] solution = _batch.Work.Solution;
-        DelassusMatrix<ScalarLane>.Assemble(_batch, _batch.Shape.IsInconsistent ? DelassusMatrix<ScalarLane>.UnconstrainedShare : _batch.AngularShare);
-        _batch.ActiveSet?.AddToDiagonal(false);
-        DelassusMatrix<ScalarLane>.Factor(_batch);
-        for (int i = 0; i < solution.Length; i++)
-        {
-            solution[i] = -_batch.Work.Error[i];
-        }
-
-        if (byTrueResponse && !_batch.Shape.IsInconsistent)
-        {
-            _conjugateGradient.Solve(false);
-        }
-        else
-        {
-            DelassusMatrix<ScalarLane>.Solve(_batch, solution);
-        }
-
         double[] a = _batch.Bodies;
-        for (int body = 0; body < shape.MovingBodies; body++)
-        {
-            Array.Clear(a, LaneBatch<ScalarLane>.Body(body, BodyLanes.V), 6);
-        }
-
-        _batch.Work.Active[0] = 1;
-        Impulses<ScalarLane>.Apply(_batch, solution);
         double widest = 0;
         for (int body = 0; body < shape.MovingBodies; body++)
         {

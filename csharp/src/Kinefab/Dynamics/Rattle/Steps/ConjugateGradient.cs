@@ -20,6 +20,9 @@ internal sealed class ConjugateGradient
 
     private readonly LaneBatch<ScalarLane> _batch;
     private readonly double[] _sum;
+
+    // The sum with the least residual so far.
+    private readonly double[] _best;
     private readonly double[] _residual;
     private readonly double[] _direction;
 
@@ -30,6 +33,7 @@ internal sealed class ConjugateGradient
     {
         _batch = batch;
         _sum = new double[batch.Shape.RowCount];
+        _best = new double[_sum.Length];
         _residual = new double[_sum.Length];
         _direction = new double[_sum.Length];
         _momenta = new double[6 * batch.Shape.MovingBodies];
@@ -43,11 +47,13 @@ internal sealed class ConjugateGradient
         _batch.ActiveSet?.ClearAtBound(solution);
         Array.Copy(solution, _residual, solution.Length);
         Array.Clear(_sum, 0, _sum.Length);
+        Array.Clear(_best, 0, _best.Length);
         DelassusMatrix<ScalarLane>.Solve(_batch, solution);
         Array.Copy(solution, _direction, solution.Length);
         double square = DenseVector.Dot(_residual, solution);
         double norm = square;
         double enough = MostLeft * square;
+        double least = double.PositiveInfinity;
         SwapMomenta();
         for (int iteration = 0; iteration < MaxIterations && square > enough; iteration++)
         {
@@ -58,7 +64,7 @@ internal sealed class ConjugateGradient
                 if (iteration == 0)
                 {
                     // Of nothing but such rows: what the compliance makes of them.
-                    Array.Copy(_direction, _sum, _sum.Length);
+                    Array.Copy(_direction, _best, _best.Length);
                 }
 
                 break;
@@ -74,6 +80,13 @@ internal sealed class ConjugateGradient
             Array.Copy(_residual, solution, solution.Length);
             DelassusMatrix<ScalarLane>.Solve(_batch, solution);
             double next = DenseVector.Dot(_residual, solution);
+            if (next < least)
+            {
+                // What follows may be rounding: of a tiny body, whose turns answer a thousand times as much as its ways, even where its curvature is more.
+                least = next;
+                Array.Copy(_sum, _best, _best.Length);
+            }
+
             for (int i = 0; i < solution.Length; i++)
             {
                 _direction[i] = solution[i] + next / square * _direction[i];
@@ -84,7 +97,7 @@ internal sealed class ConjugateGradient
         }
 
         SwapMomenta();
-        Array.Copy(_sum, solution, solution.Length);
+        Array.Copy(_best, solution, solution.Length);
     }
 
     // Work.Solution = J M^-1 J^T p, by the momenta that p gives.

@@ -1,0 +1,60 @@
+using System;
+using System.Linq;
+using Kinefab.Document;
+using Kinefab.Dynamics;
+using Kinefab.Numerics;
+using Kinefab.Validation;
+using NUnit.Framework;
+
+namespace Kinefab.Tests.Dynamics.Rattle;
+
+/// <summary>Joints that repeat each other share a load, and do not work against each other: what no body feels, a joint would break by.</summary>
+internal sealed class RedundantReactionTests
+{
+    private const double Dt = 0.02;
+
+    /// <summary>Two blocks of a centimetre, one held to the other twice: their joints had 127 times their weight, and a step took sixty parts.</summary>
+    [TestCase(0.01)]
+    [TestCase(0.1)]
+    [TestCase(1)]
+    public void BlocksThatAreHeldTwice_LoadTheirJointsByNoMoreThanTheyPull(double size)
+    {
+        const double mostWeights = 6, mostParts = 8;
+        const int steps = 300;
+        double mass = 1000 * size * size * size;
+        Rigidbody block = Block(mass, new Vector3d(1, 1, 1) * (mass * size * size / 6));
+        World world = Make(
+            new Vector3d(0, -9.81, 0),
+            (block, Vector3d.Zero, new Kinefab.Document.Joint[] { new HingeJoint { Anchor = new Vector3d(0.1, 0.5, 0.3) * size, Axis = new Vector3d(1, 0.2, 0.1) } }),
+            (block, new Vector3d(0, -size, 0), new Kinefab.Document.Joint[] { new FixedJoint { ConnectedBody = 0 }, Ball(new Vector3d(0.2, 0.4, 0) * size) }));
+        double most = 0;
+        for (int i = 0; i < steps; i++)
+        {
+            world.Step(Dt);
+            most = Math.Max(most, world.Joints.Max(joint => joint.CurrentForce.Length));
+        }
+
+        Assert.That(most / (2 * mass * 9.81), Is.InRange(0.5, mostWeights));
+        Assert.That(world.SubstepWork / world.Joints.Count / steps, Is.LessThanOrEqualTo(mostParts));
+    }
+
+    private static Rigidbody Block(double mass, Vector3d inertia) => new() { Mass = mass, InertiaTensor = inertia, AngularDamping = 0, MaxAngularVelocity = 1000 };
+
+    private static ConfigurableJoint Ball(Vector3d anchor) => new()
+    {
+        XMotion = ConfigurableJointMotion.Locked,
+        YMotion = ConfigurableJointMotion.Locked,
+        ZMotion = ConfigurableJointMotion.Locked,
+        Anchor = anchor,
+        ConnectedBody = 0,
+    };
+
+    private static World Make(Vector3d gravity, params (Rigidbody Body, Vector3d At, Kinefab.Document.Joint[] Joints)[] bodies)
+    {
+        GameObject[] objects = bodies
+            .Select((body, i) => new GameObject { Id = $"B{i}", Name = $"B{i}", Transform = new Transform { LocalPosition = body.At }, Components = body.Joints.Prepend<Component>(body.Body).ToArray() })
+            .ToArray();
+        var document = new SceneDocument { GameObjects = objects, Physics = new Physics { Gravity = gravity } };
+        return World.Create(SceneValidator.Validate(document).Scene ?? throw new InvalidOperationException(), SolverKind.Exact);
+    }
+}

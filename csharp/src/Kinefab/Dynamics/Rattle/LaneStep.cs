@@ -217,13 +217,17 @@ internal sealed class LaneStep<V>
         if (ledger.Allows(gain, moving, mayLose))
         {
             // Where J v is not 0, no factor on all speeds may change them.
-            if (!isLed && (Batch.Axes == null || !Batch.Axes.HasMotor(lane)))
+            if (isLed || (Batch.Axes != null && Batch.Axes.HasMotor(lane)))
             {
-                double takeable = LaneEnergy<V>.Takeable(Batch, lane, Batch.Work.Kinetic[lane], out CommonMotion common);
-                LaneEnergy<V>.Take(Batch, lane, ledger.Enter(gain, moving, takeable, mayLose), takeable, common);
+                return;
             }
 
-            return;
+            double takeable = LaneEnergy<V>.Takeable(Batch, lane, Batch.Work.Kinetic[lane], out CommonMotion common);
+            if (ledger.CanTake(gain, moving, takeable))
+            {
+                LaneEnergy<V>.Take(Batch, lane, ledger.Enter(gain, moving, takeable, mayLose), takeable, common);
+                return;
+            }
         }
 
         _isAlone[lane] = true;

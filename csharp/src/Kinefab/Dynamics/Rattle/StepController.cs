@@ -71,6 +71,7 @@ internal sealed partial class StepController
     private int _firstLossHalvings;
     private double _firstLoss;
     private EnergyAudit _energy;
+    private EnergyLedger _ledger;
     private double _dt;
     private double _elapsed;
     private double _tolerance;
@@ -112,6 +113,7 @@ internal sealed partial class StepController
             ProjectStartSpeeds();
         }
 
+        _ledger = cut.Energy;
         int stops = DampedSteps;
         int halvings = FirstHalvings(hasFailed && !_part.IsEager ? Math.Max(cut.Halvings, 1) : cut.Halvings, out double demand);
         SaveStart();
@@ -374,13 +376,26 @@ internal sealed partial class StepController
             return false;
         }
 
-        if (IsEnergyKept(halvings, _dt))
+        if (IsEnergyKept(halvings, _dt) && (halvings >= MostEven || CanTakeGain()))
         {
             return true;
         }
 
         FindSingular(halvings);
         return false;
+    }
+
+    // Whether what the account takes of the step at its end is enough.
+    private bool CanTakeGain()
+    {
+        if (!_isAudited)
+        {
+            return true;
+        }
+
+        var end = new EnergyAudit(_batch, _dt, _tolerance);
+        double takeable = LaneEnergy<ScalarLane>.Takeable(_batch, 0, end.Kinetic, out _);
+        return !end.IsClosed || _ledger.CanTake(end.GainSince(_energy), end.Moving, takeable);
     }
 
     // What a step that is too long loses, shorter ones do not lose; what goes where branches of a loop's motion meet, goes whatever their length.

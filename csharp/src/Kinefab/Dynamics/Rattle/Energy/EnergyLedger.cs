@@ -36,6 +36,16 @@ internal struct EnergyLedger
         return gain <= allowed && (mayLose || gain >= -allowed);
     }
 
+    /// <summary>
+    /// Whether the speeds can give what a step leaves too much, down to twice what is left alone: where a swing turns round there is little to take, and the
+    /// energy that it then has too much, or half of it, lifts it over where it was let go.
+    /// </summary>
+    /// <param name="gain">Energy that came of nothing since its start, J.</param>
+    /// <param name="moving">Energy that moves at its end, J.</param>
+    /// <param name="takeable">What speeds can give, J.</param>
+    public readonly bool CanTake(double gain, double moving, double takeable) =>
+        _least + gain - MostOfKinetic * takeable <= 2 * MostAbove * Math.Max(_largest, moving);
+
     /// <summary>Takes down a step that was taken.</summary>
     /// <param name="gain">Energy that came of nothing in it, J.</param>
     /// <param name="moving">Energy that moves at its end, J.</param>

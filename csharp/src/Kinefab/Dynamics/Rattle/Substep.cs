@@ -176,7 +176,20 @@ internal sealed class Substep
 
         _pieceStart.Restore(_batch);
         _batch.ClearHistory();
-        return TryDrift(h, tolerance, IsExact ? _conjugateGradient : null);
+        if (!IsExact)
+        {
+            return TryDrift(h, tolerance);
+        }
+
+        if (TryDrift(h, tolerance) && !IsLeftOpen(tolerance))
+        {
+            return true;
+        }
+
+        // The true response answers what rows that repeat each other contradict in, far from a closed pose, with impulses without end: not before it has to.
+        _pieceStart.Restore(_batch);
+        _batch.ClearHistory();
+        return TryDrift(h, tolerance, _conjugateGradient);
     }
 
     private bool IsLeftOpen(double tolerance) => IsExact && _batch.Work.MaxError[0] > MostLeftOpen * tolerance;
@@ -317,6 +330,11 @@ internal sealed class Substep
     // Ends a piece of a part whose drift has arrived.
     private bool Complete(double h, double part, double tolerance)
     {
+        if (_batch.Shape.IsRedundant && IsExact)
+        {
+            SelfStress.TakeOut(_batch, h, tolerance, _conjugateGradient);
+        }
+
         _batch.ActiveSet?.AddWork();
         CompliantAngles<ScalarLane>.AddDrift(_batch);
         RattleStep<ScalarLane>.Build(_batch);

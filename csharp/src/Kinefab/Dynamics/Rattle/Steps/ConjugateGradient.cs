@@ -100,6 +100,16 @@ internal sealed class ConjugateGradient
         Array.Copy(_best, solution, solution.Length);
     }
 
+    /// <summary>What the rows answer to impulses, into Work.Solution.</summary>
+    /// <param name="impulses">0 at rows that are at their bound.</param>
+    /// <param name="isDrift">See <see cref="ActiveSet{V}.AddToDiagonal"/>.</param>
+    public void Respond(double[] impulses, bool isDrift)
+    {
+        SwapMomenta();
+        Multiply(impulses, isDrift);
+        SwapMomenta();
+    }
+
     // Work.Solution = J M^-1 J^T p, by the momenta that p gives.
     private void Multiply(double[] p, bool isDrift)
     {

@@ -1,0 +1,107 @@
+using System;
+using Kinefab.Numerics;
+
+namespace Kinefab.Dynamics.Rattle;
+
+/// <summary>
+/// What rows that repeat each other are loaded with against each other, of which no body feels anything. A drift whose first pose is far off has it: there
+/// the rows of a loop contradict each other, and what the matrix's compliance makes of that grows to thousands of times the load that is carried, none of
+/// which a later correction takes back. Joints would break by it, and over the gap that a tolerance leaves between anchors it is a torque.
+/// </summary>
+internal static class SelfStress
+{
+    // Of the energy that impulses give, what the compliance may make of them: a millionth of it, or ten thousandth, where no row works against another.
+    private const double MostCompliant = 1e-3;
+
+    // Of the solve: what the first leaves is small beside a spring's load, not beside what holds it.
+    private const int Passes = 2;
+
+    // Of the largest impulse, what may be taken from a row with bounds: its state follows from it.
+    private const double MostScalar = 1e-6;
+
+    /// <summary>Takes it out of the impulses of a drift that has arrived.</summary>
+    /// <param name="batch">Built and factored at the start pose.</param>
+    /// <param name="h">Length of the drift, s.</param>
+    /// <param name="tolerance">Largest C, metres or radians.</param>
+    /// <param name="conjugateGradient">Of the batch.</param>
+    public static void TakeOut(LaneBatch<ScalarLane> batch, double h, double tolerance, ConjugateGradient conjugateGradient)
+    {
+        double[] impulses = batch.Work.PositionImpulses;
+        double[] stress = batch.Work.Move;
+        Array.Copy(impulses, stress, impulses.Length);
+        batch.ActiveSet?.ClearAtBound(stress);
+        conjugateGradient.Respond(stress, true);
+        if (!(CompliantEnergy(batch, stress) > MostCompliant * DenseVector.Dot(stress, batch.Work.Solution)))
+        {
+            return;
+        }
+
+        double most = 0;
+        for (int pass = 0; pass < Passes; pass++)
+        {
+            conjugateGradient.Solve(true);
+            for (int i = 0; i < stress.Length; i++)
+            {
+                most = Math.Max(most, Math.Abs(batch.Work.Solution[i]));
+                stress[i] -= batch.Work.Solution[i];
+            }
+
+            conjugateGradient.Respond(stress, true);
+        }
+
+        if (MovesRows(batch.Work.Solution, tolerance / h) || ChangesScalars(batch, stress, MostScalar * most))
+        {
+            return;
+        }
+
+        for (int i = 0; i < stress.Length; i++)
+        {
+            impulses[i] -= stress[i];
+            stress[i] = -stress[i];
+        }
+
+        batch.Work.Active[0] = 1;
+        Impulses<ScalarLane>.Apply(batch, stress);
+    }
+
+    private static double CompliantEnergy(LaneBatch<ScalarLane> batch, double[] impulses)
+    {
+        double sum = 0;
+        for (int i = 0; i < impulses.Length; i++)
+        {
+            sum += batch.Compliance[i] * impulses[i] * impulses[i];
+        }
+
+        return sum;
+    }
+
+    private static bool MovesRows(double[] speeds, double most)
+    {
+        foreach (double speed in speeds)
+        {
+            if (!(Math.Abs(speed) <= most))
+            {
+                return true;
+            }
+        }
+
+        return false;
+    }
+
+    private static bool ChangesScalars(LaneBatch<ScalarLane> batch, double[] impulses, double most)
+    {
+        for (int n = 0; n < batch.Shape.Blocks.Length; n++)
+        {
+            RowBlock block = batch.Shape.Blocks[n];
+            for (int i = block.BilateralCount; i < block.Rows; i++)
+            {
+                if (!(Math.Abs(impulses[batch.Shape.Pattern.Rows[n] + i]) <= most))
+                {
+                    return true;
+                }
+            }
+        }
+
+        return false;
+    }
+}

@@ -7,7 +7,7 @@ using Kinefab.Tests.Dynamics.Rattle;
 
 namespace Kinefab.Bench;
 
-/// <summary>How a chain's cost grows with its length, and what the exact solver's safe floor costs.</summary>
+/// <summary>How a chain's cost grows with its length.</summary>
 internal static class ChainBenchmark
 {
     // Short enough that the tension of the longest chain asks for no shorter steps.
@@ -30,10 +30,7 @@ internal static class ChainBenchmark
 
         double exponent = Math.Log(times[^1] / times[0]) / Math.Log(sizes[^1] / sizes[0]);
         Console.WriteLine();
-        Console.WriteLine(string.Format(
-            CultureInfo.InvariantCulture,
-            "Growth from 64 to 1024 bars: exponent {0:F2}. One cold step of implicit Euler, the safe floor, on chain64 at 1/60 s: {1:F0} us.",
-            exponent, Floor()));
+        Console.WriteLine(string.Format(CultureInfo.InvariantCulture, "Growth from 64 to 1024 bars: exponent {0:F2}.", exponent));
     }
 
     private static double Chain(int links)
@@ -52,33 +49,6 @@ internal static class ChainBenchmark
             }
 
             best = Math.Min(best, sum / Steps);
-        }
-
-        return best;
-    }
-
-    private static double Floor()
-    {
-        double best = double.PositiveInfinity;
-        // Enough runs that all of it is compiled in full before the best ones.
-        for (int run = 0; run < 2000; run++)
-        {
-            MultibodySystem chain = SolverScenes.Chain(64);
-            Island island = IslandFinder.Find(chain)[0];
-            var batch = new LaneBatch<Numerics.ScalarLane>(island, new Workspace<Numerics.ScalarLane>(island));
-            LaneTransfer<Numerics.ScalarLane>.GatherConstants(batch, 0, island, chain);
-            LaneTransfer<Numerics.ScalarLane>.Gather(batch, chain, 1.0 / 60);
-            LaneTransfer<Numerics.ScalarLane>.BeginStep(batch);
-            FreeMotion<Numerics.ScalarLane>.Stay(batch);
-            RattleStep<Numerics.ScalarLane>.Rebuild(batch);
-            var floor = new ImplicitEulerStep(batch);
-            long before = Stopwatch.GetTimestamp();
-            if (!floor.TrySolve(1.0 / 60, 1e-9))
-            {
-                throw new InvalidOperationException("The floor did not hold.");
-            }
-
-            best = Math.Min(best, Stopwatch.GetElapsedTime(before).TotalMicroseconds);
         }
 
         return best;

@@ -5,7 +5,7 @@ namespace Kinefab.Dynamics.Rattle;
 
 /// <summary>
 /// One island's step by whatever it takes: RATTLE; where that does not converge, or energy shows that it is too coarse, the
-/// step again in even parts, from its start; below the finest of these, halves of a part; implicit Euler, and at last a projected step. Steps are
+/// step again in even parts, from its start; below the finest of these, halves of a part, and at last a projected step. Steps are
 /// also cut up front where bodies turn far or where tension makes them stiff. Even parts from the start, and kept for a
 /// while, since RATTLE keeps energy over long times at a constant step and pays for a change amid a violent motion.
 /// </summary>
@@ -537,12 +537,6 @@ internal sealed partial class StepController
 
     private bool TryFallback(Snapshot start, double h, int depth)
     {
-        Return(start, h);
-        if (_part.TryImplicitEuler(h, _tolerance) && IsEnergyKept(depth, h))
-        {
-            return true;
-        }
-
         Return(start, h);
         return _part.TryProjected(h, _tolerance, _isAudited ? _energy : null) && IsEnergyKept(depth, h);
     }

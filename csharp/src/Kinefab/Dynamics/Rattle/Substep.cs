@@ -35,7 +35,6 @@ internal sealed class Substep
     private const double LeastTelling = 0.25;
 
     private readonly LaneBatch<ScalarLane> _batch;
-    private readonly ImplicitEulerStep _implicit;
     private readonly ConjugateGradient _conjugateGradient;
     private readonly ProjectedStep _projected;
     private readonly Snapshot _pieceStart;
@@ -48,7 +47,6 @@ internal sealed class Substep
     public Substep(LaneBatch<ScalarLane> batch, ConjugateGradient conjugateGradient)
     {
         _batch = batch;
-        _implicit = new ImplicitEulerStep(batch);
         _conjugateGradient = conjugateGradient;
         _projected = new ProjectedStep(batch, _conjugateGradient);
         _pieceStart = new Snapshot(batch);
@@ -136,33 +134,6 @@ internal sealed class Substep
 
             SetLength(left);
         }
-    }
-
-    /// <summary>Implicit Euler from the start pose.</summary>
-    public bool TryImplicitEuler(double h, double tolerance)
-    {
-        Tries++;
-        if (_batch.ActiveSet != null)
-        {
-            _batch.ActiveSet.LocatesEvents = false;
-        }
-
-        if (!_implicit.TrySolve(h, tolerance) || IsLeftOpen(tolerance) || HasGoneTooFar(h, tolerance))
-        {
-            return false;
-        }
-
-        _batch.ActiveSet?.AddWork();
-        CompliantAngles<ScalarLane>.AddDrift(_batch);
-        RattleStep<ScalarLane>.Build(_batch);
-        GeometricStiffness<ScalarLane>.Estimate(_batch, _batch.Work.PositionImpulses, h);
-        _batch.Work.Active[0] = 1;
-        VelocityProjection<ScalarLane>.Run(_batch, 0, tolerance, _conjugateGradient);
-        Finish();
-
-        // What implicit Euler leaves behind is no guess for RATTLE.
-        Array.Clear(_batch.VelocityImpulses, 0, _batch.VelocityImpulses.Length);
-        return IsFinite();
     }
 
     // A guess can be worse than none: a damper's impulse, or what came before a blow, told of another motion. A loop that can be closed is: what

@@ -65,7 +65,7 @@ internal sealed partial class ActiveSet<V>
     /// <summary>Takes the scalar rows' constants for a step from the rows at the start pose, guesses states, writes J.</summary>
     /// <param name="h">Step, s.</param>
     /// <param name="tolerance">Largest C, metres or radians.</param>
-    /// <param name="isImplicit">Whether the whole impulse acts before the drift (implicit Euler).</param>
+    /// <param name="isImplicit">Whether the whole impulse acts before the drift, see <see cref="ProjectedStep"/>.</param>
     public void Begin(double h, double tolerance, bool isImplicit)
     {
         for (int i = 0; i < _rows.Length; i++)

@@ -32,7 +32,6 @@ internal static class LaneTransfer<V>
             Write(batch.Bodies, LaneRecords<V>.Body(b, BodyLanes.InverseInertia) + lane, inverse);
             Write(batch.Bodies, LaneRecords<V>.Body(b, BodyLanes.Inertia) + lane, new Vector3d(OrNone(inverse.X), OrNone(inverse.Y), OrNone(inverse.Z)));
             double most = Math.Max(inverse.X, Math.Max(inverse.Y, inverse.Z));
-            batch.Bodies[LaneRecords<V>.Body(b, BodyLanes.MostInverseInertia) + lane] = most;
             batch.Bodies[LaneRecords<V>.Body(b, BodyLanes.LeastInverseInertia) + lane] = Least(inverse, most);
             Write(batch.Bodies, LaneRecords<V>.Body(b, BodyLanes.EndQ) + lane, Quaterniond.Identity);
             Write(batch.Bodies, LaneRecords<V>.Body(b, BodyLanes.Q) + lane, Quaterniond.Identity);

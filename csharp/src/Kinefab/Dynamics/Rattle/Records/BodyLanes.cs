@@ -37,33 +37,30 @@ internal static class BodyLanes
     /// <summary>Inverse principal moments, 1/(kg m^2); 0 for an infinite one.</summary>
     public const int InverseInertia = 33;
 
-    /// <summary>Inverse inertia at the end of the drift, 1/(kg m^2): xx, yy, zz, xy, xz, yz; in implicit Euler's iteration with what tension adds.</summary>
+    /// <summary>Inverse inertia at the end of the drift, 1/(kg m^2): xx, yy, zz, xy, xz, yz.</summary>
     public const int WorldInverse = 36;
 
     /// <summary>Gravity and forces over the mass, m/s^2; torques, N m.</summary>
     public const int Acceleration = 42;
     public const int Torque = 45;
 
-    /// <summary>Largest inverse principal moment, 1/(kg m^2).</summary>
-    public const int MostInverseInertia = 48;
-
     /// <summary>Geometric stiffness under the last impulses against the inertia, 1/s^2.</summary>
-    public const int Stiffness = 49;
+    public const int Stiffness = 48;
 
     /// <summary>Angular momentum in the body's axes while they turn, kg m^2/s, in the order of its <see cref="RotationSplitting"/>.</summary>
-    public const int BodyMomentum = 50;
+    public const int BodyMomentum = 49;
 
     /// <summary>Principal moments, kg m^2; 0 for an infinite one.</summary>
-    public const int Inertia = 53;
+    public const int Inertia = 52;
 
     /// <summary>What damping leaves of the linear and of the angular velocity in the step.</summary>
-    public const int DampingFactors = 56;
+    public const int DampingFactors = 55;
 
     /// <summary>Largest angular speed, rad/s.</summary>
-    public const int MaxAngularSpeed = 58;
+    public const int MaxAngularSpeed = 57;
 
     /// <summary>Least inverse principal moment but for infinite moments', 1/(kg m^2); 0 of a body that does not turn.</summary>
-    public const int LeastInverseInertia = 59;
+    public const int LeastInverseInertia = 58;
 
-    public const int Count = 60;
+    public const int Count = 59;
 }

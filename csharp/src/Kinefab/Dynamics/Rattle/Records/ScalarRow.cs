@@ -236,7 +236,7 @@ internal struct ScalarRow
 
     /// <param name="h">Step, s.</param>
     /// <param name="response">J M^-1 J^T, 1/kg or 1/(kg m^2).</param>
-    /// <param name="isImplicit">Whether the whole impulse acts before the drift (implicit Euler).</param>
+    /// <param name="isImplicit">Whether the whole impulse acts before the drift, see <see cref="ProjectedStep"/>.</param>
     /// <param name="isSine">Whether C is a sine of the angle by which the row turns.</param>
     public void SetSpring(double h, double response, bool isImplicit, bool isSine)
     {

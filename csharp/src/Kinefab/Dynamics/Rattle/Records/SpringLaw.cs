@@ -12,7 +12,7 @@ internal readonly struct SpringLaw
     /// <param name="error">C at the start of the step, m or rad.</param>
     /// <param name="h">Step, s.</param>
     /// <param name="response">J M^-1 J^T, 1/kg or 1/(kg m^2).</param>
-    /// <param name="isImplicit">Whether the whole impulse acts before the drift (implicit Euler).</param>
+    /// <param name="isImplicit">Whether the whole impulse acts before the drift, see <see cref="ProjectedStep"/>.</param>
     public SpringLaw(in DriveModel gains, double velocityTarget, double error, double h, double response, bool isImplicit)
     {
         double perMass = gains.IsAcceleration && response > 0 ? 1 / response : 1;

@@ -17,8 +17,8 @@ internal static class ChordIteration<V>
     // An error that does not fall below this share of itself in an iteration gets no better.
     private const double StillShare = 0.9;
 
-    /// <summary>Tolerances that anchors may be apart then, along each axis: with the speed of a short step little changes in an iteration, closed or not.</summary>
-    public const double MostGaps = 4;
+    // Tolerances that anchors may be apart then, along each axis: with the speed of a short step little changes in an iteration, closed or not.
+    private const double MostGaps = 4;
 
     // Largest error of an angle that may be left then, radians.
     private const double MostAngle = 1e-3;
@@ -32,8 +32,7 @@ internal static class ChordIteration<V>
     /// <summary>
     /// Closed, or as closed as an over-constrained loop that was not made exactly can be: nothing moves any more, or the
     /// anchors meet and the angles, near enough, get no better. Going on would load such a loop without end, and stir up
-    /// the turns of slender bodies, on which the chord contracts least. In an island known to be inconsistent whose angles
-    /// are not springs (implicit Euler) the anchors suffice.
+    /// the turns of slender bodies, on which the chord contracts least.
     /// </summary>
     public static bool IsClosed(LaneBatch<V> batch, int lane, double tolerance, bool isRepeated)
     {
@@ -41,7 +40,6 @@ internal static class ChordIteration<V>
         bool isStill = error >= StillShare * batch.Work.LastMaxError[lane];
         batch.Work.LastMaxError[lane] = error;
         return error < tolerance
-            || (batch.Shape.IsInconsistent && batch.CompliantStep == 0 && batch.Work.MaxGap[lane] < tolerance)
             || (isRepeated && batch.Work.MaxChange[lane] < tolerance && batch.Work.MaxGap[lane] < MostGaps * tolerance && error < MostAngle)
             || (isRepeated && isStill && batch.Work.MaxGap[lane] < tolerance && error < MostAngle);
     }

@@ -94,33 +94,17 @@ internal sealed partial class ActiveSet<V>
         return isAny;
     }
 
-    /// <summary>Holds rows at their bounds: the one that a move led to it, or all whose impulses are beyond them; true when one was.</summary>
-    /// <param name="first">The row; -1: all.</param>
-    public bool ClampToBounds(int first)
+    /// <summary>Holds a row at the bound to which a move led it.</summary>
+    public void HoldAtBound(int index)
     {
-        bool isChanged = false;
         for (int i = 0; i < _rows.Length; i++)
         {
-            ref ScalarRow scalar = ref _rows[i];
-            scalar.PendingImpulse = 0;
-            if (scalar.State != RowState.Free)
-            {
-                continue;
-            }
-
-            scalar.ImpulseFirstHalf = _batch.Work.PositionImpulses[scalar.Index];
-            if (i == first)
-            {
-                HoldAtBound(ref scalar, scalar.ImpulseFirstHalf > scalar.Theta * (scalar.Low + scalar.High) / 2);
-                isChanged = true;
-            }
-            else if (first < 0)
-            {
-                isChanged |= ClampToBounds(ref scalar);
-            }
+            _rows[i].PendingImpulse = 0;
         }
 
-        return isChanged;
+        ref ScalarRow scalar = ref _rows[index];
+        scalar.ImpulseFirstHalf = _batch.Work.PositionImpulses[scalar.Index];
+        HoldAtBound(ref scalar, scalar.ImpulseFirstHalf > scalar.Theta * (scalar.Low + scalar.High) / 2);
     }
 
     /// <summary>

@@ -19,9 +19,6 @@ internal static class RattleStep<V>
     // And with conjugate gradients.
     private const int MaxGradientIterations = 40;
 
-    // Rows that give way to a move one by one, before all that are left do at once.
-    private const int MaxAlone = 16;
-
     /// <summary>Kick, impulses and drift, until the lanes that are active at the call have a closed end pose.</summary>
     /// <param name="batch">Built and factored at the start pose.</param>
     /// <param name="h">Step, s.</param>
@@ -120,8 +117,7 @@ internal static class RattleStep<V>
     {
         for (int pass = 0; ; pass++)
         {
-            int first = -1;
-            double share = pass < MaxAlone ? scalars.ShareOfMove(batch.Work.Move, out first) : 1;
+            double share = scalars.ShareOfMove(batch.Work.Move, out int first);
             for (int i = 0; i < batch.Work.Move.Length; i++)
             {
                 batch.Work.Move[i] *= share;
@@ -129,11 +125,12 @@ internal static class RattleStep<V>
             }
 
             ChordIteration<V>.Move(batch, batch.Work.PositionImpulses);
-            if (!scalars.ClampToBounds(first))
+            if (first < 0)
             {
                 return pass > 0;
             }
 
+            scalars.HoldAtBound(first);
             Factor(batch, true);
             ReleaseAtBound(batch, h, scalars);
             ChordIteration<V>.FindMove(batch, h, true, conjugateGradient);

@@ -8,9 +8,6 @@ namespace Kinefab.Dynamics.Rattle;
 internal sealed partial class ActiveSet<V>
     where V : struct, ILane<V>
 {
-    // Of what a limit may be passed by at the end of a drift: what the search for states has left at just that is not missed.
-    private const double Slack = 1.01;
-
     // Of what a drive without limit of force may need, so much is a row that runs away.
     private const double MostBeyond = 10;
 
@@ -124,7 +121,7 @@ internal sealed partial class ActiveSet<V>
         {
             ref ScalarRow scalar = ref _rows[i];
             double allowed = scalar.IsActive ? scalar.Limit.Allowed : 0;
-            if (!scalar.Limit.IsApart && scalar.HasEnd && scalar.End.IsHardLimit && scalar.End.GeometricError - allowed < -Slack * MostPassed * tolerance)
+            if (!scalar.Limit.IsApart && scalar.HasEnd && scalar.End.IsHardLimit && scalar.End.GeometricError - allowed < -MostPassed * tolerance)
             {
                 return true;
             }
@@ -180,7 +177,6 @@ internal sealed partial class ActiveSet<V>
             return false;
         }
 
-        _movesAll &= pass < FreePasses;
         ulong states = States();
         bool isSeen = Array.IndexOf(_seen, states, 0, _seenCount) >= 0;
         _seen[_seenCount++] = states;

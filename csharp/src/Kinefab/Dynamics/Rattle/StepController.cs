@@ -21,11 +21,9 @@ internal sealed partial class StepController
     // Halvings into even parts where limits and drives act: blows end the long account of energy for which the parts are even.
     private const int MaxEvenHalvings = 6;
 
-    // Failures in a step after which parts that fail are left to the methods that need no chord.
+    // Failures in a step after which one that was halved where it failed is cut into even parts all the same, and, below the finest of these, parts that
+    // fail are left to the method that needs no chord.
     private const int MaxFailures = 48;
-
-    // And after which a step that was halved where it failed is cut into even parts all the same.
-    private const int MaxTrialFailures = 24;
 
     // Stops in a step after which the rest of it is not tried: the scene cannot be followed, and says so.
     private const int MaxDampedSteps = 8;
@@ -465,7 +463,7 @@ internal sealed partial class StepController
 
     private void Halve(double h, int depth)
     {
-        _hasGivenUp = _isTrial && (_hasGivenUp || _failures > MaxTrialFailures);
+        _hasGivenUp = _isTrial && (_hasGivenUp || _failures > MaxFailures);
         if (_hasGivenUp)
         {
             return;

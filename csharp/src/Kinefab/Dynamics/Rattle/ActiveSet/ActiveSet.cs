@@ -76,7 +76,7 @@ internal sealed partial class ActiveSet<V>
             scalar.ImpulseSecondHalf = 0;
             scalar.PendingImpulse = 0;
             scalar.Theta = isImplicit ? 1 : 0.5;
-            scalar.Kind = scalar.FindKind(SoftReach(scalar, h, tolerance));
+            scalar.Kind = scalar.FindKind(Reach * tolerance);
             scalar.StartSpeed = scalar.IsActive ? StartSpeed(scalar) : 0;
             scalar.Limit.Allowed = scalar.Kind == RowKind.Limit && scalar.StartError < -ScalarRow.MostClosedByDrift ? scalar.StartError : 0;
             bool isReached = scalar.Limit.Allowed < 0 || (!scalar.Limit.IsLeft && (scalar.Limit.IsHeldBack || (scalar.StartError <= Reach * tolerance && !IsThrownBack(scalar, tolerance))));
@@ -295,14 +295,6 @@ internal sealed partial class ActiveSet<V>
     // leaves its limit by less than one that counts as reached may be away, as by rounding, rests there.
     private bool IsThrownBack(in ScalarRow scalar, double tolerance) =>
         scalar.Built.Bounces(scalar.StartSpeed) && scalar.StartSpeed * _left > Reach * tolerance;
-
-    // Where events are not located, a soft limit that the step will reach acts from its start on, by the pose at its end.
-    private double SoftReach(in ScalarRow scalar, double h, double tolerance)
-    {
-        const double margin = 1.5;
-        bool isSoft = scalar.IsActive && scalar.Built.Has(RowFlags.Limit | RowFlags.Spring);
-        return isSoft && !LocatesEvents ? Math.Max(Reach * tolerance, -margin * h * StartSpeed(scalar)) : Reach * tolerance;
-    }
 
     /// <summary>Adds the compliance of springs times a vector to J M^-1 J^T times it; rows at their bounds stay as they are.</summary>
     public void AddCompliance(double[] vector, double[] product, bool isDrift)

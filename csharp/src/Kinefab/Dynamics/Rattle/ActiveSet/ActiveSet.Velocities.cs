@@ -93,9 +93,9 @@ internal sealed partial class ActiveSet<V>
                 }
                 else if (_isBlow)
                 {
-                    // What it takes; of one that stalls, to the side to which it pushes.
-                    low = scalar.Drive.IsStalled && scalar.ImpulseFirstHalf > 0 ? 0 : double.NegativeInfinity;
-                    high = scalar.Drive.IsStalled && scalar.ImpulseFirstHalf < 0 ? 0 : double.PositiveInfinity;
+                    // What it takes.
+                    low = double.NegativeInfinity;
+                    high = double.PositiveInfinity;
                 }
 
                 if (scalar.ImpulseSecondHalf < low || scalar.ImpulseSecondHalf > high)

@@ -11,9 +11,6 @@ internal sealed partial class ActiveSet<V>
     // Speed, m/s or rad/s, against which a row's is nothing.
     private const double Least = 1e-10;
 
-    // Share of the speeds in a blow by which rows may miss theirs.
-    private const double MostMissed = 1e-3;
-
     /// <summary>The least C at the end of the drift of the limits, hard and soft, that were not reached at its start, m or rad; infinite without one.</summary>
     public double NearestApart()
     {
@@ -137,73 +134,6 @@ internal sealed partial class ActiveSet<V>
         }
 
         return isAny;
-    }
-
-    /// <summary>
-    /// After a blow in which a drive without limit of force and limits ask for speeds that contradict each other, as where it drives its joint against its
-    /// stop: the drive lets go and the limits throw nothing back, which is where ever smaller bounces against such a drive end. False where there is none.
-    /// </summary>
-    public bool YieldDrives()
-    {
-        bool isAny = false, isMissed = HoldsDrives() && HasMissedSpeed();
-        for (int i = 0; i < _rows.Length && isMissed; i++)
-        {
-            ref ScalarRow scalar = ref _rows[i];
-            bool yields = scalar.State == RowState.Free && scalar.AsksForSpeed
-                && (!HasTargetSpeed(scalar) || scalar.ImpulseSecondHalf < scalar.Low || scalar.ImpulseSecondHalf > scalar.High);
-            scalar.State = yields ? RowState.AtBound : scalar.State;
-            isAny |= yields;
-        }
-
-        for (int i = 0; i < _rows.Length && isAny; i++)
-        {
-            ref ScalarRow scalar = ref _rows[i];
-            _batch.VelocityImpulses[scalar.Index] = 0;
-            scalar.ImpulseSecondHalf = 0;
-            scalar.StartSpeed = scalar.Kind == RowKind.Limit ? 0 : scalar.StartSpeed;
-        }
-
-        return isAny;
-    }
-
-    /// <summary>Whether a drive that asks for a speed is held in the projection.</summary>
-    public bool HoldsDrives() => Array.Exists(_rows, row => row.State == RowState.Free && row.AsksForSpeed);
-
-    // Rows that leave each other no speed are solved as if they were soft: they miss theirs by as much as they differ.
-    private bool HasMissedSpeed()
-    {
-        bool isMissed = false;
-        double fastest = 0;
-        for (int i = 0; i < _rows.Length && !isMissed; i++)
-        {
-            ref ScalarRow scalar = ref _rows[i];
-            bool isFree = scalar.State == RowState.Free;
-            isMissed = isFree && !HasTargetSpeed(scalar);
-            fastest = isFree ? Math.Max(fastest, Math.Abs(scalar.StartSpeed)) : fastest;
-        }
-
-        if (isMissed)
-        {
-            return true;
-        }
-
-        Impulses<V>.NegativeSpeeds(_batch);
-        for (int n = 0; n < _batch.Shape.Blocks.Length && !isMissed; n++)
-        {
-            int first = _batch.Shape.Pattern.Rows[n];
-            for (int row = first; row < first + _batch.Shape.Blocks[n].BilateralCount; row++)
-            {
-                isMissed |= Math.Abs(_batch.Work.Solution[row]) > MostMissed * fastest + Least;
-            }
-        }
-
-        return isMissed;
-    }
-
-    private bool HasTargetSpeed(in ScalarRow scalar)
-    {
-        double target = TargetSpeed(scalar);
-        return Math.Abs(StartSpeed(scalar) - target) <= MostMissed * (Math.Abs(target) + Math.Abs(scalar.StartSpeed)) + Least;
     }
 
     /// <summary>As <see cref="BeginImpact"/> without a blow: limits that are reached are left at rest, whatever the joint came with.</summary>

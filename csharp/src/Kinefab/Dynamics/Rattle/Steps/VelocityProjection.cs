@@ -61,14 +61,7 @@ internal static class VelocityProjection<V>
             return false;
         }
 
-        Array.Copy(batch.Bodies, batch.Work.BodiesBefore, batch.Bodies.Length);
         RunWithActiveSet(batch, 0, tolerance, batch.ActiveSet, conjugateGradient);
-        if (batch.ActiveSet.YieldDrives())
-        {
-            Array.Copy(batch.Work.BodiesBefore, batch.Bodies, batch.Bodies.Length);
-            RunWithActiveSet(batch, 0, tolerance, batch.ActiveSet, conjugateGradient);
-        }
-
         return true;
     }
 

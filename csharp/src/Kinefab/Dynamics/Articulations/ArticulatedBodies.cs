@@ -89,6 +89,7 @@ internal sealed class ArticulatedBodies
                 LinkDefinition definition = tree.Links[link];
                 definition.LinearDamping = bodies.LinearDampings[body];
                 definition.AngularDamping = bodies.AngularDampings[body];
+                definition.MaxAngularSpeed = bodies.MaxAngularSpeeds[body];
                 definition.UseGravity = bodies.UseGravity[body];
                 if (bodies.InverseMasses[body] > 0)
                 {

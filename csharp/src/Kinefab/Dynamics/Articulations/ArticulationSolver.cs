@@ -221,7 +221,8 @@ internal sealed class ArticulationSolver
             Tree.Speeds[f] *= ratio;
     }
 
-    // Damping acts on the velocity that the forces will give, too: F (1 - d dt) - m v d.
+    // Damping acts on the velocity that the forces will give, too: F (1 - d dt) - m v d. What turns faster than its body may is held back by the
+    // torque that would slow it down to that by itself, with nothing hung on it (4.1: computeD).
     private void FindForces(Vector3d gravity)
     {
         double most = 1 / _dt;
@@ -235,9 +236,11 @@ internal sealed class ArticulationSolver
             Vector3d weight = link.UseGravity ? gravity * link.Mass : Vector3d.Zero;
             Vector3d own = q.InverseRotate(motion.Angular);
             Vector3d spin = q * Vector3d.Scale(link.Inertia, own);
+            double speed = own.Length;
+            double excess = speed > link.MaxAngularSpeed ? (1 - link.MaxAngularSpeed / speed) * most : 0;
             _external[i] = new Wrench(
                 (weight + Applied[i].Force) * (1 - linear * _dt) - motion.Linear * (link.Mass * linear),
-                Applied[i].Torque * (1 - angular * _dt) - spin * angular);
+                Applied[i].Torque * (1 - angular * _dt) - spin * (angular + excess));
             _internal[i] = new Wrench(Vector3d.Zero, -Vector3d.Cross(motion.Angular, spin));
         }
     }

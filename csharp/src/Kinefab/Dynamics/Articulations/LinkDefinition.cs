@@ -59,6 +59,9 @@ internal sealed class LinkDefinition
     public double AngularDamping { get; set; }
     public bool UseGravity { get; set; } = true;
 
+    /// <summary>Of the link against the world, rad/s.</summary>
+    public double MaxAngularSpeed { get; set; } = double.PositiveInfinity;
+
     public LinkJointKind Joint { get; set; }
 
     /// <summary>The joint's frame in the parent's and in the link's own frame.</summary>

@@ -213,7 +213,7 @@ internal sealed class LaneStep<V>
         double gain = Batch.Work.Gain[lane];
         double moving = Batch.Work.Moving[lane];
         bool isLed = LaneEnergy<V>.IsLed(Batch, lane);
-        bool mayLose = isLed || CompliantAngles<V>.HaveActed(Batch, lane, moving) || (Batch.Axes != null && Batch.Axes.HasRow(lane));
+        bool mayLose = isLed || Batch.Work.Slowed[lane] > 0 || CompliantAngles<V>.HaveActed(Batch, lane, moving) || (Batch.Axes != null && Batch.Axes.HasRow(lane));
         if (ledger.Allows(gain, moving, mayLose))
         {
             // Where J v is not 0, no factor on all speeds may change them.

@@ -353,7 +353,8 @@ internal sealed partial class StepController
         }
     }
 
-    private bool MayLose => _isSingular || LaneEnergy<ScalarLane>.IsLed(_batch, 0) || _energy.IsSprung || CompliantAngles<ScalarLane>.HaveActed(_batch, 0, _energy.Kinetic) || _batch.ActiveSet is { HasActed: true };
+    // What slows a body down to its largest angular speed leaves speeds that the joints forbid, and these go.
+    private bool MayLose => _isSingular || _batch.Work.Slowed[0] > 0 || LaneEnergy<ScalarLane>.IsLed(_batch, 0) || _energy.IsSprung || CompliantAngles<ScalarLane>.HaveActed(_batch, 0, _energy.Kinetic) || _batch.ActiveSet is { HasActed: true };
 
     // At the finest even parts a violent motion on which no scalar row acts may lose energy: nothing below these is better. Were it allowed to lose
     // at any, while a gain is mended, an energy that swings about its value would be let down step by step. What is left there of a gain the account takes

@@ -299,6 +299,26 @@ public sealed class WorldLinkTests
         Assert.That(fastest, Is.EqualTo(180 / Math.PI).Within(0.01));
     }
 
+    [TestCase(SolverKind.Unity, 7.0)]
+    [TestCase(SolverKind.Exact, 7.0)]
+    [TestCase(SolverKind.Unity, 12.0)]
+    [TestCase(SolverKind.Exact, 12.0)]
+    public void DefaultMaxAngularSpeed_OfALink_SlowsItByItsOwnInertia(SolverKind solver, double most)
+    {
+        // What is held back is the link's own turn; its mass, on an arm of half a metre, keeps its speed.
+        const double step = 0.002;
+        const double share = 0.1 / (0.1 + 2 * 0.25);
+        SceneDocument document = LinkScene.Document(LinkScene.Base, [LinkScene.Link(Revolute) with { UseGravity = false }]);
+        World world = World.Create(LinkScene.Valid(document with { Physics = document.Physics with { DefaultMaxAngularSpeed = most } }), solver);
+        var joint = (WorldLinkJoint)world.Joints[0];
+        joint.SetSpeed(Coordinate.AngularX, 20 * 180 / Math.PI);
+        for (int i = 1; i <= 10; i++)
+        {
+            world.Step(step);
+            Assert.That(joint.Speed(Coordinate.AngularX) * Math.PI / 180, Is.EqualTo(most + (20 - most) * Math.Pow(1 - share, i)).Within(1e-3));
+        }
+    }
+
     /// <summary>A loop of links that a joint of a helper closes, and a coupling of two links' coordinates.</summary>
     [TestCase(SolverKind.Unity)]
     [TestCase(SolverKind.Exact)]

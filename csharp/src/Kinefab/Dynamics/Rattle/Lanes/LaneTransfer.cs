@@ -103,6 +103,7 @@ internal static class LaneTransfer<V>
     public static void BeginStep(LaneRecords<V> batch)
     {
         Lane<V>.Splat(0).Store(batch.Work.Fastest, 0);
+        Lane<V>.Splat(0).Store(batch.Work.Slowed, 0);
         for (int body = 0; body < batch.Shape.MovingBodies; body++)
         {
             int o = LaneRecords<V>.Body(body, 0);
@@ -332,6 +333,7 @@ internal static class LaneTransfer<V>
         Lane<V> speed = Lane<V>.Sqrt(square + Lane<V>.Splat(LeastSquare));
         Lane<V> share = Lane<V>.Min(most / speed, Lane<V>.Splat(1));
         (share * rate).Store(a, o, BodyLanes.W);
+        Lane<V>.Max(Lane<V>.Load(batch.Work.Slowed, 0), Lane<V>.Splat(1) - share).Store(batch.Work.Slowed, 0);
         Lane<V>.Max(Lane<V>.Load(batch.Work.Fastest, 0), share * share * square).Store(batch.Work.Fastest, 0);
     }
 

@@ -47,6 +47,7 @@ internal sealed class Workspace<V>
         LastMaxError = new double[w];
         FirstMaxError = new double[w];
         Fastest = new double[w];
+        Slowed = new double[w];
         StartKinetic = new double[w];
         Kinetic = new double[w];
         Moving = new double[w];
@@ -133,6 +134,9 @@ internal sealed class Workspace<V>
 
     /// <summary>Largest angular speed of each lane's moving bodies at the start of the step, rad/s.</summary>
     public double[] Fastest { get; }
+
+    /// <summary>By what share a moving body of each lane was too fast for its largest angular speed at the start of the step; 0: none was.</summary>
+    public double[] Slowed { get; }
 
     /// <summary>Kinetic energy of each lane at the start of the step and at its end, J.</summary>
     public double[] StartKinetic { get; }

@@ -1,7 +1,9 @@
 using System.Collections.Generic;
 using System.Globalization;
+using System.Linq;
 using Kinefab.Diagnostics;
 using Kinefab.Document;
+using Kinefab.Dynamics.Articulations;
 using Kinefab.Validation;
 
 namespace Kinefab.Dynamics;
@@ -50,7 +52,17 @@ internal static class ExactSolverCheck
             what.Add("the nearer of two swing limits that are not alike");
         if (link.JointType == ArticulationJointType.Spherical && (Pulls(link, 0, link.XDrive) || Pulls(link, 1, link.YDrive) || Pulls(link, 2, link.ZDrive)))
             what.Add("the angles of a ball's drives, whose sines it follows,");
+        if (Enumerable.Range(0, 3).Any(axis => IsScaled(link, axis)))
+            what.Add("the whole articulation's inertia in the acceleration drives");
         return what.Count > 0 ? string.Join(", ", what) : null;
+    }
+
+    // An articulation scales them by the inertia that the axis sees with all links hung on it, a joint by that of its two bodies.
+    private static bool IsScaled(ArticulationBody link, int axis)
+    {
+        LinkAxis own = ArticulationModel.Axis(link, axis);
+        bool isOfJoint = link.JointType == ArticulationJointType.Spherical || (axis == 0 && link.JointType != ArticulationJointType.Fixed);
+        return isOfJoint && own.IsAcceleration && own.HasDrive && own.Motion != LinkMotion.Locked;
     }
 
     private static bool Pulls(ArticulationBody link, int axis, ArticulationDrive drive) =>

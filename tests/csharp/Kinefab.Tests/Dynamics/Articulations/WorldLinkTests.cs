@@ -299,6 +299,24 @@ public sealed class WorldLinkTests
         Assert.That(fastest, Is.EqualTo(180 / Math.PI).Within(0.01));
     }
 
+    [TestCase(ArticulationDriveType.Force, 100.0)]
+    [TestCase(ArticulationDriveType.Acceleration, 0.0)]
+    [TestCase(ArticulationDriveType.Acceleration, 100.0)]
+    public void AccelerationDrive_OfAHinge_TheExactSolverSaysThatItIsScaledByTheBodiesAlone(ArticulationDriveType type, double stiffness)
+    {
+        // Its own turn has a moment of 0.1 kg m^2, 0.6 about the hinge: q'' = stiffness (target - q) in unity, a sixth of it in exact.
+        ArticulationBody link = LinkScene.Link(Revolute, new ArticulationDrive { Stiffness = stiffness, Target = 10, DriveType = type }) with { UseGravity = false };
+        World exact = LinkScene.World(SolverKind.Exact, link), unity = LinkScene.World(SolverKind.Unity, link);
+        exact.Run(0.05, step: 1e-4);
+        unity.Run(0.05, step: 1e-4);
+        bool isTold = exact.Findings.Diagnostics.Any(d => d.Code == "LINK_NOT_EXACT" && d.Message.Contains("acceleration drives"));
+        using (Assert.EnterMultipleScope())
+        {
+            Assert.That(isTold, Is.EqualTo(Math.Abs(exact["L1"] - unity["L1"]) > 0.1));
+            Assert.That(isTold, Is.EqualTo(type == ArticulationDriveType.Acceleration && stiffness > 0));
+        }
+    }
+
     [TestCase(SolverKind.Unity, 7.0)]
     [TestCase(SolverKind.Exact, 7.0)]
     [TestCase(SolverKind.Unity, 12.0)]

@@ -10,6 +10,10 @@ internal sealed class VanishingSquares
 {
     // What the forms are to come to: where x stands in one by its square alone, x comes to the root of it.
     private const double Solved = 1e-10;
+
+    // What they may come to: a pose that is closed to 1e-14 lies by the root of that beside the motions, where velocities are obstructed, and so do the
+    // forms.
+    private const double Known = 1e-7;
     private const int MaxIterations = 60;
     private const double FirstDamping = 1e-3;
     private const double LeastDamping = 1e-14;
@@ -63,7 +67,7 @@ internal sealed class VanishingSquares
             damping *= DampingFactor;
         }
 
-        return DenseVector.Largest(values) <= Solved ? weights : null;
+        return DenseVector.Largest(values) <= Known ? weights : null;
     }
 
     // Takes out of weights what they have along others, and makes them 1 long; false where nothing is left.

@@ -27,6 +27,9 @@ DAMPING, REFINEMENTS = 1e-12, 2
 """What accelerations make of the rows is taken out so many times, with this damping."""
 SOLVED = 1e-10
 """What the forms are to come to: a weight that stands in one by its square alone comes to the root of it."""
+KNOWN = 1e-7
+"""What they may come to: a pose that is closed to 1e-14 lies by the root of that beside the motions, where velocities are obstructed,
+and so do the forms."""
 ITERATIONS = 60
 FIRST_DAMPING, LEAST_DAMPING, MOST_DAMPING, DAMPING_FACTOR = 1e-3, 1e-14, 1e6, 10.0
 LEAST_LENGTH = 1e-6
@@ -118,7 +121,7 @@ def _vanishing(forms: Array, start: Array, beside: Array) -> Array | None:
                 damping = max(LEAST_DAMPING, damping / DAMPING_FACTOR)
                 continue
         damping *= DAMPING_FACTOR
-    return weights if np.abs(values).max() <= SOLVED else None
+    return weights if np.abs(values).max() <= KNOWN else None
 
 
 def _normalised(weights: Array, beside: Array) -> Array | None:

@@ -68,6 +68,34 @@ public sealed class WorldStepTests
     }
 
     [Test]
+    public void Coordinate_OfABodyThatIsSetToMoreThanATurnAStep_HasItFromTheFirstStep([Values] SolverKind solver, [Values] bool isHinge, [Values(500, -900)] double way)
+    {
+        ConfigurableJointMotion locked = ConfigurableJointMotion.Locked;
+        Joint joint = isHinge
+            ? new HingeJoint { Axis = Vector3d.UnitX }
+            : new ConfigurableJoint { XMotion = locked, YMotion = locked, ZMotion = locked, AngularYMotion = locked, AngularZMotion = locked };
+        World world = SmallScene.Create(joint, new Rigidbody { AngularDamping = 0, MaxAngularVelocity = 1e4 }, solver: solver);
+        Coordinate coordinate = world.Joints[0].FreeCoordinates[0];
+        double before = 0;
+        for (int i = 0; i < 6; i++)
+        {
+            // Turned round after three steps.
+            if (i % 3 == 0)
+                world.Bodies[0].AngularVelocity = SmallScene.OwnPose.Rotation * Vector3d.UnitX * ((i == 0 ? way : -way) * Math.PI / 180 / SmallScene.Dt);
+            WorldSnapshot snapshot = world.Snapshot();
+            world.Step(SmallScene.Dt);
+            double reached = world.Joints[0].Coordinate(coordinate);
+            Assert.That(Math.Abs(reached - before), Is.EqualTo(Math.Abs(way)).Within(1e-3));
+            world.Restore(snapshot);
+            world.Step(SmallScene.Dt);
+            Assert.That(world.Joints[0].Coordinate(coordinate), Is.EqualTo(reached));
+            before = reached;
+        }
+
+        Assert.That(before, Is.Zero.Within(1e-3));
+    }
+
+    [Test]
     public void CurrentForce_HangingBody_IsItsWeight()
     {
         SceneDocument document = Hanging(new FixedJoint());

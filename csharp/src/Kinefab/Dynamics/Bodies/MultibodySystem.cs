@@ -72,6 +72,9 @@ internal sealed class MultibodySystem
     /// <summary>Set when what a body is made of has changed, until the solver has taken note of it.</summary>
     public bool HasChangedBodies;
 
+    /// <summary>Whether a program gave bodies other angular velocities since the last step: who counts turns by those he noted notes them again.</summary>
+    public bool HasChangedSpeeds;
+
     /// <summary>All that a program or a step may change, but for what the solver remembers.</summary>
     public void Exchange(StateTape tape)
     {
@@ -94,6 +97,7 @@ internal sealed class MultibodySystem
         tape.Value(ref Gravity);
         tape.Value(ref Stops);
         tape.Value(ref HasChangedBodies);
+        tape.Value(ref HasChangedSpeeds);
     }
 
     /// <summary>Before a step that does not write this one any more.</summary>

@@ -323,6 +323,13 @@ public sealed partial class World
             }
         }
 
+        if (_mechanism.HasChangedSpeeds)
+        {
+            _mechanism.HasChangedSpeeds = false;
+            foreach (WorldJoint joint in Joints)
+                joint.NoteSpeeds();
+        }
+
         _upkeep.BeforeStep(Threads);
         _solver.Step(dt);
         if (_mechanism.Unsolved.Count > 0 || _mechanism.Closed.Count > 0 || _mechanism.ForbiddenSpeeds.Count > 0 || _mechanism.HeldLimits.Count > 0 || _mechanism.StalledJoints.Count > 0)

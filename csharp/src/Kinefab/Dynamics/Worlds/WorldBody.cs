@@ -127,6 +127,7 @@ public sealed class WorldBody
         {
             ThrowIfFollowing("velocity", "speed");
             _bodies.AngularVelocities[_index] = value.FiniteOrThrow(nameof(value));
+            _system.HasChangedSpeeds = true;
         }
     }
 

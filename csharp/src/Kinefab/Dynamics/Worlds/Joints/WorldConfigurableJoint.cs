@@ -145,6 +145,14 @@ public sealed class WorldConfigurableJoint : WorldJoint
         Solved.RestartTwist(_sign * _unwrapped[FirstAngle]);
     }
 
+    internal override void NoteSpeeds()
+    {
+        for (int i = FirstAngle; i < Axes; i++)
+        {
+            Evaluate(i, _unwrapped[i], out _speeds[i]);
+        }
+    }
+
     // A drive's row knows the goal as a rotation, which it reaches by the shorter way: a goal farther off is led there.
     internal override void BeforeStep()
     {

@@ -97,6 +97,8 @@ public sealed class WorldHingeJoint : WorldJoint
         joint.MotorForceLimit = ForceLimit(_settings.Motor.Force);
     }
 
+    internal override void NoteSpeeds() => _speed = Velocity / Degrees;
+
     // The spring counts from where the joint's own angle stands, which may have wrapped.
     internal override void BeforeStep()
     {

@@ -139,6 +139,11 @@ public abstract class WorldJoint
     // A motor's force is 0 where nobody stated one, and who drives a joint wants it to move.
     private protected static double ForceLimit(double own) => own > 0 ? own : double.PositiveInfinity;
 
+    /// <summary>Called before a step where a program has given bodies other velocities: how fast its angles change now.</summary>
+    internal virtual void NoteSpeeds()
+    {
+    }
+
     /// <summary>Called before a step: goals of drives follow the turns that were made.</summary>
     internal virtual void BeforeStep()
     {

@@ -103,6 +103,7 @@ public sealed class WorldLinkJoint : WorldJoint
         _articulated.Read(_articulated.ArticulationOf[_body]);
         Tree.Speeds[freedom] = value / Unit;
         _articulated.Place(_articulated.ArticulationOf[_body]);
+        MultibodySystem.HasChangedSpeeds = true;
     }
 
     /// <summary>A force along a coordinate over the next step, N or N m; its reaction acts on the link above.</summary>
@@ -163,6 +164,8 @@ public sealed class WorldLinkJoint : WorldJoint
         axis.ForceLimit = ForceLimit(ArticulationModel.Axis(_settings, Tree.AxisOf[freedom]).ForceLimit);
         axis.TargetSpeed = speed / Unit;
     }
+
+    internal override void NoteSpeeds() => _joint.NoteSpeeds();
 
     internal override void BeforeStep() => _joint.BeforeStep();
 

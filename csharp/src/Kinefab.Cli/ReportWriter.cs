@@ -1,6 +1,5 @@
 using System.Collections.Generic;
 using System.IO;
-using System.Linq;
 using System.Text.Json;
 using Kinefab.Diagnostics;
 
@@ -9,24 +8,30 @@ namespace Kinefab.Cli;
 /// <summary>Reports as people and as programs read them.</summary>
 internal static class ReportWriter
 {
-    // Of one code: a robot has one for each effort and each speed of its joints.
+    // Of one code: a robot has one for each effort and each speed of its joints, or for each of its links.
     private const int MostRemarks = 4;
+    private const int MostWarnings = 8;
 
     /// <summary>
-    /// One line a finding on stderr, as compilers write them: file:line:column: severity CODE pointer: message remedy. Of remarks that are alike
-    /// the first ones, and how many more there are.
+    /// One line a finding on stderr, as compilers write them: file:line:column: severity CODE pointer: message remedy. Of remarks and warnings that are
+    /// alike the first ones, and how many more there are.
     /// </summary>
     internal static void WriteLines(string file, Report report, TextWriter target)
     {
-        var remarks = new Dictionary<string, int>();
+        var alike = new Dictionary<(string Code, Severity Severity), int>();
         foreach (Diagnostic found in report.Diagnostics)
         {
-            if (found.Severity != Severity.Info || (remarks[found.Code] = remarks.GetValueOrDefault(found.Code) + 1) <= MostRemarks)
+            (string, Severity) kind = (found.Code, found.Severity);
+            if ((alike[kind] = alike.GetValueOrDefault(kind) + 1) <= Most(found.Severity))
                 target.WriteLine(Printable.Text(found.Line is null ? $"{file}: {found}" : $"{file}:{found}"));
         }
 
-        foreach ((string code, int count) in remarks.Where(remark => remark.Value > MostRemarks))
-            target.WriteLine(Printable.Text($"{file}: info {code}: {Counted.Of(count - MostRemarks, "more remark", "more remarks")} of this kind; --json lists all."));
+        foreach (((string code, Severity severity), int count) in alike)
+        {
+            (string one, string many) = severity == Severity.Info ? ("more remark", "more remarks") : ("more warning", "more warnings");
+            if (count > Most(severity))
+                target.WriteLine(Printable.Text($"{file}: {severity.ToJson()} {code}: {Counted.Of(count - Most(severity), one, many)} of this kind; --json lists all."));
+        }
     }
 
     /// <summary>The fields of schemas/report.schema.json into an open JSON object.</summary>
@@ -41,6 +46,13 @@ internal static class ReportWriter
             Write(json, found);
         json.WriteEndArray();
     }
+
+    private static int Most(Severity severity) => severity switch
+    {
+        Severity.Info => MostRemarks,
+        Severity.Warning => MostWarnings,
+        _ => int.MaxValue,
+    };
 
     private static void Write(Utf8JsonWriter json, Diagnostic found)
     {

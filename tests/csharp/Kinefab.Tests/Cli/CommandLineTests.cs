@@ -218,6 +218,26 @@ public class CommandLineTests
         Assert.That(all.RootElement.GetProperty("diagnostics").GetArrayLength(), Is.EqualTo(10));
     }
 
+    [TestCase(8, 8)]
+    [TestCase(30, 9)]
+    public void Validate_ManyWarningsOfOneKind_TellsTheFirstAndHowManyMore(int objects, int told)
+    {
+        string file = Path.Combine(TestContext.CurrentContext.WorkDirectory, $"alike{objects}.kinefab");
+        string one = string.Join(",", Enumerable.Range(0, objects).Select(i => $$"""{"id":"o{{i}}","name":"o","colour":1}"""));
+        File.WriteAllText(file, $$"""{"format":"kinefab.scene","version":"1.0","generator":{"name":"test","version":"1"},"gameObjects":[{{one}}]}""");
+        (int exit, string data, string findings) = Run("validate", file);
+        string[] lines = findings.ReplaceLineEndings("\n").TrimEnd().Split('\n');
+        using JsonDocument all = JsonDocument.Parse(Run("validate", file, "--json").Data);
+        using (Assert.EnterMultipleScope())
+        {
+            Assert.That((exit, lines.Length), Is.EqualTo((0, told)), findings);
+            Assert.That(lines.Count(line => line.Contains("warning FIELD_UNKNOWN /", StringComparison.Ordinal)), Is.EqualTo(8));
+            Assert.That(lines[^1].EndsWith("warning FIELD_UNKNOWN: 22 more warnings of this kind; --json lists all.", StringComparison.Ordinal), Is.EqualTo(told > 8));
+            Assert.That(data, Does.Contain($"{objects} warnings"));
+            Assert.That(all.RootElement.GetProperty("diagnostics").GetArrayLength(), Is.EqualTo(objects));
+        }
+    }
+
     [Test]
     public void Help_Simulate_SaysThatSecondsAreRequired() =>
         Assert.That(Run("simulate", "--help").Data, Does.Match("--seconds <seconds> .*Required, but for --replay"));

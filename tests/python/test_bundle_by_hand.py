@@ -184,6 +184,21 @@ def test_check_tells_every_layer_at_once(tmp_path):
     assert run("bundle", "check", path).exit_code == 1
 
 
+@pytest.mark.parametrize("joints", [1, 2, 7])
+def test_a_misspelt_component_is_told_once_and_of_how_many_more_places(tmp_path, joints):
+    turns = [{"id": f"J{i}", "type": "revolute", "a": "A", "b": "Crnk"} for i in range(joints)]
+    values = bundle(part("A"), part("Crank"), joints=[*turns, {"id": "Other", "type": "revolute", "a": "A", "b": "Bar"}])
+    path = tmp_path / "bad.bundle.json"
+    path.write_text(json.dumps(values))
+    told = [d for d in check(path)[0].diagnostics if d.code == "COMPONENT_UNKNOWN"]
+    assert [d.where.partition("#")[2] for d in told] == ["/joints/0/b", f"/joints/{joints}/b"]
+    more = {1: "", 2: " and 1 more place", 7: " and 6 more places"}[joints]
+    assert [d.message for d in told] == [
+        f"'Crnk', named by joint J0{more}, is no component. Near matches: Crank.",
+        "'Bar', named by joint Other, is no component. Near matches: none.",
+    ]
+
+
 @pytest.mark.parametrize(
     "change, near",
     [

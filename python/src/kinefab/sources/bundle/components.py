@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 import numpy as np
 
-from ...diagnostics import chained
+from ...diagnostics import chained, diagnostic
 from ...model import Node, NodeKind
 from ...spatial import Array
 from ..reading.near import near_matches
@@ -30,11 +30,13 @@ GROUND = "ground"
 @dataclass(frozen=True, slots=True, eq=False)
 class Components:
     """nodes: parents before children.  index: of a node by its id.  placement: of the nodes, in that
-    order."""
+    order.  unknown: of each name that is no component's, what told of it (place in the report, record's pointer and field, feature, near
+    ones) and how often it was named."""
 
     nodes: list[Node]
     index: dict[str, int]
     placement: Placement
+    unknown: dict[str, tuple[int, str, str, str, int]] = field(default_factory=dict[str, tuple[int, str, str, str, int]])
 
     def is_active(self, node: int) -> bool:
         """Whether neither the node nor an assembly above it is suppressed; the ground always is."""
@@ -44,11 +46,22 @@ class Components:
         return at is None
 
     def find(self, record: Record, key: str, feature: str) -> int:
-        """The node that a field names; -1 for the ground, and after a fault."""
+        """The node that a field names; -1 for the ground, and after a fault.  A name that is no component's is told once, and of how many
+        more places."""
         name = record.text(key)
         if name and name != GROUND and name not in self.index:
-            near = near_matches(name, self.index, record.log.report)
-            record.fault("COMPONENT_UNKNOWN", key, feature=feature, component=name, near=near)
+            found = record.log.report.diagnostics
+            if name not in self.unknown:
+                near = near_matches(name, self.index, record.log.report)
+                self.unknown[name] = len(found), f"{record.pointer}/{key}", feature, near, 1
+                record.fault("COMPONENT_UNKNOWN", key, feature=feature, component=name, near=near)
+            else:
+                at, pointer, first, near, count = self.unknown[name]
+                self.unknown[name] = at, pointer, first, near, count + 1
+                others = f"{first} and {count} more {'places' if count > 1 else 'place'}"
+                where = record.log.place(pointer)
+                found[at] = diagnostic("COMPONENT_UNKNOWN", where, feature=others, component=name, near=near)
+                record.sound = False
         return self.index.get(name, -1)
 
 

@@ -96,6 +96,8 @@ internal static class SimulateCommand
             double count = Replayed?.Steps ?? Math.Max(1, Math.Round(Seconds / dt));
             if (count > TypedOptions.MostSteps)
                 return SceneOutcome.Refused(loaded.Report, string.Create(CultureInfo.InvariantCulture, $"--seconds {Seconds} at {dt} s a step makes {count} steps; at most {TypedOptions.MostSteps} are run. Give fewer seconds or a longer --step."));
+            if (!double.IsFinite(count * dt))
+                return SceneOutcome.Refused(loaded.Report, string.Create(CultureInfo.InvariantCulture, $"--seconds {Seconds} at {dt} s a step make no finite time."));
             RunRecord? plan = null;
             if ((RecordTo ?? ReplayOf) is not null)
             {

@@ -96,6 +96,8 @@ internal static class RecordFile
             ? value
             : throw new InvalidDataException("step is no positive number of seconds");
         int steps = Whole(root, "steps");
+        if (!double.IsFinite(steps * step))
+            throw new InvalidDataException("steps of step seconds make no finite time");
         int every = Whole(root, "every");
         string[] drives = [.. Member(root, "drives", JsonValueKind.Array).EnumerateArray().Select((d, i) => TextOf(d, $"drives[{i}]"))];
         ulong[] hashes = [.. Member(root, "hashes", JsonValueKind.Array).EnumerateArray().Select((h, i) => Hash(h, i))];

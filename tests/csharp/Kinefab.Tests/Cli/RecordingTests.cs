@@ -115,6 +115,7 @@ public sealed class RecordingTests
     [TestCase("solver", "\"fast\"", "solver is fast; there are unity and exact")]
     [TestCase("step", "-1", "step is no positive number of seconds")]
     [TestCase("step", "1e999", "step is no positive number of seconds")]
+    [TestCase("step", "1e308", "steps of step seconds make no finite time")]
     [TestCase("steps", "49.5", "steps is no whole number from 1 to 1000000")]
     [TestCase("steps", "49", "it has 51 hashes; 49 steps with one for every 1 make 50")]
     [TestCase("every", "0", "every is no whole number from 1 to 1000000")]

@@ -40,6 +40,14 @@ public sealed class SimulateCommandTests
     }
 
     [Test]
+    public void Simulate_StepsOfNoFiniteTime_AreRefused()
+    {
+        (int exit, string data, string findings) = CommandLineTests.Run("simulate", Scene, "--seconds", "1.7e308", "--step", "1e308");
+        Assert.That((exit, data), Is.EqualTo((2, "")));
+        Assert.That(findings, Does.Contain("make no finite time"));
+    }
+
+    [Test]
     public void Simulate_DrivenJoints_ReachTheirValues()
     {
         string file = Path.Combine(_folder, "run.json");

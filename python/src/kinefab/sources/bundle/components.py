@@ -27,16 +27,27 @@ GROUND = "ground"
 """Where a joint or constraint names a component: the world itself."""
 
 
+@dataclass(slots=True)
+class Misnamed:
+    """What was told of a name that is no component's.  at: its finding in the report.  pointer: of the field that was told.  near: names like
+    it.  others: how many more places name it."""
+
+    at: int
+    pointer: str
+    feature: str
+    near: str
+    others: int = 0
+
+
 @dataclass(frozen=True, slots=True, eq=False)
 class Components:
     """nodes: parents before children.  index: of a node by its id.  placement: of the nodes, in that
-    order.  unknown: of each name that is no component's, what told of it (place in the report, record's pointer and field, feature, near
-    ones) and how often it was named."""
+    order.  misnamed: by each name that is no component's, what was told of it."""
 
     nodes: list[Node]
     index: dict[str, int]
     placement: Placement
-    unknown: dict[str, tuple[int, str, str, str, int]] = field(default_factory=dict[str, tuple[int, str, str, str, int]])
+    misnamed: dict[str, Misnamed] = field(default_factory=dict[str, Misnamed])
 
     def is_active(self, node: int) -> bool:
         """Whether neither the node nor an assembly above it is suppressed; the ground always is."""
@@ -51,16 +62,17 @@ class Components:
         name = record.text(key)
         if name and name != GROUND and name not in self.index:
             found = record.log.report.diagnostics
-            if name not in self.unknown:
+            if name not in self.misnamed:
                 near = near_matches(name, self.index, record.log.report)
-                self.unknown[name] = len(found), f"{record.pointer}/{key}", feature, near, 1
+                self.misnamed[name] = Misnamed(len(found), f"{record.pointer}/{key}", feature, near)
                 record.fault("COMPONENT_UNKNOWN", key, feature=feature, component=name, near=near)
             else:
-                at, pointer, first, near, count = self.unknown[name]
-                self.unknown[name] = at, pointer, first, near, count + 1
-                others = f"{first} and {count} more {'places' if count > 1 else 'place'}"
-                where = record.log.place(pointer)
-                found[at] = diagnostic("COMPONENT_UNKNOWN", where, feature=others, component=name, near=near)
+                told = self.misnamed[name]
+                told.others += 1
+                places = f"{told.feature} and {told.others} more {'places' if told.others > 1 else 'place'}"
+                found[told.at] = diagnostic(
+                    "COMPONENT_UNKNOWN", record.log.place(told.pointer), feature=places, component=name, near=told.near
+                )
                 record.sound = False
         return self.index.get(name, -1)
 

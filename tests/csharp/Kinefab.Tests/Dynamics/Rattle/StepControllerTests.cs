@@ -53,9 +53,9 @@ internal sealed class StepControllerTests
         Assert.That(cut.Halvings, Is.EqualTo(3));
     }
 
-    [TestCase(4, 0, 0.25, 0.5)]
+    [TestCase(8, 0, 0.25, 0.5)]
     [TestCase(0, 10, 0.1, 2)]
-    [TestCase(10000, 10, 0.1, 10)]
+    [TestCase(20000, 10, 0.1, 10)]
     public void StepLimit_OfStiffnessAndSpeed_IsTheLarger(double stiffness, double speed, double dt, double expected)
     {
         Assert.That(StepLimit.Of(stiffness, speed, dt), Is.EqualTo(expected).Within(1e-12));

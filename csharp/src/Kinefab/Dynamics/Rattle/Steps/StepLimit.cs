@@ -6,8 +6,8 @@ namespace Kinefab.Dynamics.Rattle;
 /// <summary>How many parts a step is to be cut into up front: where bodies turn far, or where tension makes them stiff.</summary>
 internal static class StepLimit
 {
-    // Geometric stiffness against inertia, times h^2, above which RATTLE (a leapfrog: stable below 4) is given shorter steps.
-    private const double MostStiffness = 1;
+    // Geometric stiffness against inertia, times h^2, above which RATTLE is given shorter steps: half of what a leapfrog is stable below.
+    private const double MostStiffness = 2;
 
     // Largest turn of a body in a step, radians.
     private const double MostTurn = 0.5;

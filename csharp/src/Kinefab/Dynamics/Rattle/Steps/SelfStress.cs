@@ -16,6 +16,9 @@ internal static class SelfStress
     // Of the solve: what the first leaves is small beside a spring's load, not beside what holds it.
     private const int Passes = 2;
 
+    // Of the energy that impulses give the bodies, what may be taken with it: of a tiny body the rounding of a great load is more than a tolerance moves.
+    private const double MostMoved = 1e-5;
+
     // Of the largest impulse, what may be taken from a row with bounds: its state follows from it.
     private const double MostScalar = 1e-6;
 
@@ -31,7 +34,8 @@ internal static class SelfStress
         Array.Copy(impulses, stress, impulses.Length);
         batch.ActiveSet?.ClearAtBound(stress);
         conjugateGradient.Respond(stress, true);
-        if (!(CompliantEnergy(batch, stress) > MostCompliant * DenseVector.Dot(stress, batch.Work.Solution)))
+        double energy = DenseVector.Dot(stress, batch.Work.Solution);
+        if (!(CompliantEnergy(batch, stress) > MostCompliant * energy))
         {
             return;
         }
@@ -49,7 +53,8 @@ internal static class SelfStress
             conjugateGradient.Respond(stress, true);
         }
 
-        if (MovesRows(batch.Work.Solution, tolerance / h) || ChangesScalars(batch, stress, MostScalar * most))
+        bool isMoved = MovesRows(batch.Work.Solution, tolerance / h) && !(Math.Abs(DenseVector.Dot(stress, batch.Work.Solution)) <= MostMoved * energy);
+        if (isMoved || ChangesScalars(batch, stress, MostScalar * most))
         {
             return;
         }

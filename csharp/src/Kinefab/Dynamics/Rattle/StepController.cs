@@ -359,12 +359,14 @@ internal sealed partial class StepController
     // At the finest even parts a violent motion on which no scalar row acts may lose energy: nothing below these is better. Were it allowed to lose
     // at any, while a gain is mended, an energy that swings about its value would be let down step by step. What is left there of a gain the account takes
     // from the speeds.
-    private bool IsEnergyKept(int halvings, double h)
+    private bool IsEnergyKept(int halvings, double h) => !_isAudited || IsEnergyKept(new EnergyAudit(_batch, _dt, _tolerance), halvings, h);
+
+    private bool IsEnergyKept(in EnergyAudit end, int halvings, double h)
     {
         // A gain is a part's own to mend, not that of the part after it.
         double share = EarlyShare + (1 - EarlyShare) * (_elapsed + h) / _dt;
         bool mayLose = MayLose || halvings >= MostEven;
-        return !_isAudited || new EnergyAudit(_batch, _dt, _tolerance).IsKept(_energy, mayLose, share * (mayLose ? MostEnergyGain : MostEnergyChange));
+        return end.IsKept(_energy, mayLose, share * (mayLose ? MostEnergyGain : MostEnergyChange));
     }
 
     private bool TryEvenParts(int halvings)
@@ -375,32 +377,29 @@ internal sealed partial class StepController
             return false;
         }
 
-        if (IsEnergyKept(halvings, _dt) && (halvings >= MostEven || CanTakeGain()))
-        {
-            return true;
-        }
-
-        FindSingular(halvings);
-        return false;
-    }
-
-    // Whether what the account takes of the step at its end is enough.
-    private bool CanTakeGain()
-    {
         if (!_isAudited)
         {
             return true;
         }
 
         var end = new EnergyAudit(_batch, _dt, _tolerance);
-        double takeable = LaneEnergy<ScalarLane>.Takeable(_batch, 0, end.Kinetic, out _);
-        return !end.IsClosed || _ledger.CanTake(end.GainSince(_energy), end.Moving, takeable);
+        if (IsEnergyKept(end, halvings, _dt) && (halvings >= MostEven || CanTakeGain(end)))
+        {
+            return true;
+        }
+
+        FindSingular(end, halvings);
+        return false;
     }
 
+    // Whether what the account takes of the step at its end is enough.
+    private bool CanTakeGain(in EnergyAudit end) =>
+        !end.IsClosed || _ledger.CanTake(end.GainSince(_energy), end.Moving, LaneEnergy<ScalarLane>.Takeable(_batch, 0, end.Kinetic, out _));
+
     // What a step that is too long loses, shorter ones do not lose; what goes where branches of a loop's motion meet, goes whatever their length.
-    private void FindSingular(int halvings)
+    private void FindSingular(in EnergyAudit end, int halvings)
     {
-        double loss = -new EnergyAudit(_batch, _dt, _tolerance).GainSince(_energy);
+        double loss = -end.GainSince(_energy);
         if (_isSingular || !(loss > 0) || !_batch.Shape.HasJointLoops)
         {
             return;

@@ -145,22 +145,26 @@ internal sealed class Substep
             return true;
         }
 
-        _pieceStart.Restore(_batch);
-        _batch.ClearHistory();
-        if (!IsExact)
-        {
-            return TryDrift(h, tolerance);
-        }
-
+        ReturnToPieceStartWithoutGuess();
         if (TryDrift(h, tolerance) && !IsLeftOpen(tolerance))
         {
             return true;
         }
 
+        if (!IsExact)
+        {
+            return false;
+        }
+
         // The true response answers what rows that repeat each other contradict in, far from a closed pose, with impulses without end: not before it has to.
+        ReturnToPieceStartWithoutGuess();
+        return TryDrift(h, tolerance, _conjugateGradient);
+    }
+
+    private void ReturnToPieceStartWithoutGuess()
+    {
         _pieceStart.Restore(_batch);
         _batch.ClearHistory();
-        return TryDrift(h, tolerance, _conjugateGradient);
     }
 
     private bool IsLeftOpen(double tolerance) => IsExact && _batch.Work.MaxError[0] > MostLeftOpen * tolerance;

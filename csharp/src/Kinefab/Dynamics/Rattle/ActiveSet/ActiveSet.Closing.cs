@@ -16,7 +16,7 @@ internal sealed partial class ActiveSet<V>
         {
             ref ScalarRow scalar = ref _rows[i];
             scalar.Kind = scalar.IsActive && scalar.Built.IsHardLimit ? RowKind.Limit : RowKind.None;
-            double error = scalar.Built.GeometricError - (keepsAllowed ? scalar.Limit.Allowed : 0);
+            double error = ClosingError(scalar, keepsAllowed);
             bool isPassed = scalar.Kind == RowKind.Limit && error < 0;
             scalar.State = isPassed ? RowState.Free : RowState.AtBound;
             _batch.Work.Error[scalar.Index] = isPassed ? error : 0;
@@ -57,7 +57,7 @@ internal sealed partial class ActiveSet<V>
                 continue;
             }
 
-            double error = scalar.Built.GeometricError - (keepsAllowed ? scalar.Limit.Allowed : 0);
+            double error = ClosingError(scalar, keepsAllowed);
             bool isFree = scalar.State == RowState.Free;
             bool holds = isFree ? impulses[scalar.Index] >= 0 : error + Impulses<V>.Speed(_batch, scalar.Block, scalar.Built, false) < 0;
             if (holds != isFree)
@@ -86,4 +86,6 @@ internal sealed partial class ActiveSet<V>
 
         return false;
     }
+
+    private static double ClosingError(in ScalarRow scalar, bool keepsAllowed) => scalar.Built.GeometricError - (keepsAllowed ? scalar.Limit.Allowed : 0);
 }

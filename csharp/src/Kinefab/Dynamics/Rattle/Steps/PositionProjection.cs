@@ -131,10 +131,14 @@ internal sealed class PositionProjection
     // By the limits alone that are passed before each move, which have less to agree on.
     private bool TryLimitByLimit(double tolerance)
     {
-        FreeMotion<ScalarLane>.Stay(_batch);
-        RattleStep<ScalarLane>.Rebuild(_batch);
+        if (_batch.ActiveSet == null)
+        {
+            return false;
+        }
+
+        ReturnToStart();
         _looksAhead = false;
-        bool isClosed = _batch.ActiveSet != null && Iterate(tolerance);
+        bool isClosed = Iterate(tolerance);
         _looksAhead = true;
         return isClosed;
     }
@@ -142,8 +146,7 @@ internal sealed class PositionProjection
     // Limits that cannot be closed with the rest stay passed as far as they are: see LimitEvent.Allowed.
     private bool TryWithLimitsAsTheyStand(double tolerance)
     {
-        FreeMotion<ScalarLane>.Stay(_batch);
-        RattleStep<ScalarLane>.Rebuild(_batch);
+        ReturnToStart();
         if (_batch.ActiveSet == null || !_batch.ActiveSet.AllowPassed())
         {
             return false;
@@ -153,6 +156,12 @@ internal sealed class PositionProjection
         bool isClosed = Iterate(tolerance);
         _keepsAllowed = false;
         return isClosed;
+    }
+
+    private void ReturnToStart()
+    {
+        FreeMotion<ScalarLane>.Stay(_batch);
+        RattleStep<ScalarLane>.Rebuild(_batch);
     }
 
     private bool Iterate(double tolerance)

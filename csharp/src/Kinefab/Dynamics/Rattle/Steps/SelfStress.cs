@@ -44,16 +44,16 @@ internal static class SelfStress
         for (int pass = 0; pass < Passes; pass++)
         {
             conjugateGradient.Solve(true);
+            most = Math.Max(most, DenseVector.Largest(batch.Work.Solution));
             for (int i = 0; i < stress.Length; i++)
             {
-                most = Math.Max(most, Math.Abs(batch.Work.Solution[i]));
                 stress[i] -= batch.Work.Solution[i];
             }
 
             conjugateGradient.Respond(stress, true);
         }
 
-        bool isMoved = MovesRows(batch.Work.Solution, tolerance / h) && !(Math.Abs(DenseVector.Dot(stress, batch.Work.Solution)) <= MostMoved * energy);
+        bool isMoved = !(DenseVector.Largest(batch.Work.Solution) <= tolerance / h) && !(Math.Abs(DenseVector.Dot(stress, batch.Work.Solution)) <= MostMoved * energy);
         if (isMoved || ChangesScalars(batch, stress, MostScalar * most))
         {
             return;
@@ -78,19 +78,6 @@ internal static class SelfStress
         }
 
         return sum;
-    }
-
-    private static bool MovesRows(double[] speeds, double most)
-    {
-        foreach (double speed in speeds)
-        {
-            if (!(Math.Abs(speed) <= most))
-            {
-                return true;
-            }
-        }
-
-        return false;
     }
 
     private static bool ChangesScalars(LaneBatch<ScalarLane> batch, double[] impulses, double most)

@@ -41,6 +41,8 @@ internal sealed partial class StepController
     private const int TellingHalvings = 3;
     private const double KeptLoss = 0.5;
 
+    private const int MaxFailedJoints = 3;
+
     // What a part that stands still leaves of the speeds.
     private const double KeptSpeed = 0.9;
 
@@ -70,6 +72,7 @@ internal sealed partial class StepController
     private double _firstLoss;
     private EnergyAudit _energy;
     private EnergyLedger _ledger;
+    private int _leastHalvings;
     private double _dt;
     private double _elapsed;
     private double _tolerance;
@@ -114,6 +117,7 @@ internal sealed partial class StepController
         _ledger = cut.Energy;
         int stops = DampedSteps;
         int halvings = FirstHalvings(hasFailed && !_part.IsEager ? Math.Max(cut.Halvings, 1) : cut.Halvings, out double demand);
+        _leastHalvings = halvings;
         SaveStart();
         FindDrivesThatMove();
         halvings = TakeParts(halvings, ref cut);
@@ -226,18 +230,19 @@ internal sealed partial class StepController
         bool hasHalvedThere = false;
         while (true)
         {
-            if (TryEvenParts(halvings))
+            bool isTaken = TryEvenParts(halvings);
+            if (HasRunAway)
             {
-                if (_hasLookedForHeld || _batch.ActiveSet is not { HasRunAway: true })
-                {
-                    break;
-                }
-
                 // Before the step counts, what holds the drive that ran away is looked for.
                 Return(_start, _dt);
                 _hasMoved = false;
                 FindHeldDrives();
                 continue;
+            }
+
+            if (isTaken)
+            {
+                break;
             }
 
             bool wasEager = _part.IsEager;
@@ -262,7 +267,7 @@ internal sealed partial class StepController
 
             if (halvings >= MostEven)
             {
-                SubstepUntilSolved(halvings);
+                halvings = SubstepUntilSolved(halvings);
                 break;
             }
 
@@ -271,6 +276,8 @@ internal sealed partial class StepController
 
         return halvings;
     }
+
+    private bool HasRunAway => !_hasLookedForHeld && _batch.ActiveSet is { HasRunAway: true };
 
     // What failed is tried again with rows that keep to their bounds in each iteration.
     private void ReturnToStart()
@@ -420,7 +427,7 @@ internal sealed partial class StepController
         _part.SetLength(h);
         for (int i = 1 << halvings; i > 0; i--)
         {
-            if (!_part.TryRattle(h, _tolerance))
+            if (!_part.TryRattle(h, _tolerance) || HasRunAway)
             {
                 return false;
             }
@@ -453,12 +460,41 @@ internal sealed partial class StepController
         return false;
     }
 
-    private void SubstepUntilSolved(int halvings)
+    // From parts of so many halvings on, as long as the start and no failure allow: what is hard in one place is not hard after it. The halvings that the
+    // step ends with.
+    private int SubstepUntilSolved(int halvings)
     {
-        for (int i = 1 << halvings; i > 0; i--)
+        int joined = 0;
+        int failedJoints = 0;
+        for (int i = 0; i < 1 << halvings;)
         {
-            Halve(_dt / (1 << halvings), halvings);
+            int size = Math.Min(joined, TrailingZeros(i));
+            int failures = _failures;
+            Halve(_dt / (1 << halvings) * (1 << size), halvings - size);
+            i += 1 << size;
+            if (failures != _failures)
+            {
+                failedJoints += size > 0 ? 1 : 0;
+                joined = Math.Max(0, size - 1);
+            }
+            else if (size == joined && failedJoints < MaxFailedJoints && halvings - joined > _leastHalvings)
+            {
+                joined++;
+            }
         }
+
+        return halvings - joined;
+    }
+
+    private static int TrailingZeros(int i)
+    {
+        int zeros = 0;
+        while (zeros < 31 && (i >> zeros & 1) == 0)
+        {
+            zeros++;
+        }
+
+        return zeros;
     }
 
     private void Halve(double h, int depth)

@@ -41,6 +41,7 @@ internal sealed partial class StepController
     private const int TellingHalvings = 3;
     private const double KeptLoss = 0.5;
 
+    // Of parts that were taken as one, failures after which none are.
     private const int MaxFailedJoints = 3;
 
     // What a part that stands still leaves of the speeds.
@@ -460,41 +461,34 @@ internal sealed partial class StepController
         return false;
     }
 
-    // From parts of so many halvings on, as long as the start and no failure allow: what is hard in one place is not hard after it. The halvings that the
-    // step ends with.
-    private int SubstepUntilSolved(int halvings)
+    // Parts of so many halvings, the next two as one after each that was taken: what is hard in one place is not so after it. The halvings at the end.
+    private int SubstepUntilSolved(int finest)
     {
-        int joined = 0;
         int failedJoints = 0;
-        for (int i = 0; i < 1 << halvings;)
+        int halvings = finest;
+        for (int done = 0; done < 1 << finest;)
         {
-            int size = Math.Min(joined, TrailingZeros(i));
+            int depth = halvings;
+            while (done % (1 << (finest - depth)) != 0)
+            {
+                depth++;
+            }
+
             int failures = _failures;
-            Halve(_dt / (1 << halvings) * (1 << size), halvings - size);
-            i += 1 << size;
+            Halve(_dt / (1 << depth), depth);
+            done += 1 << (finest - depth);
             if (failures != _failures)
             {
-                failedJoints += size > 0 ? 1 : 0;
-                joined = Math.Max(0, size - 1);
+                failedJoints += depth < finest ? 1 : 0;
+                halvings = Math.Min(finest, depth + 1);
             }
-            else if (size == joined && failedJoints < MaxFailedJoints && halvings - joined > _leastHalvings)
+            else if (depth == halvings && halvings > _leastHalvings && failedJoints < MaxFailedJoints)
             {
-                joined++;
+                halvings--;
             }
         }
 
-        return halvings - joined;
-    }
-
-    private static int TrailingZeros(int i)
-    {
-        int zeros = 0;
-        while (zeros < 31 && (i >> zeros & 1) == 0)
-        {
-            zeros++;
-        }
-
-        return zeros;
+        return halvings;
     }
 
     private void Halve(double h, int depth)

@@ -40,6 +40,17 @@ public sealed class LeverTestsTests
         Assert.That(readme.ReadLine(), Is.EqualTo(package == "Kinefab.Cli" ? "# dotnet kinefab" : $"# {package}"), "each has a page of its own");
     }
 
+    [Test]
+    public void Constraints_OfACloneBehindALink_DependOnTheLibrary()
+    {
+        using var feed = new PackageFeed();
+        string link = Path.Combine(feed.Project, "clone");
+        Directory.CreateSymbolicLink(link, PackageFeed.Source(".."));
+        PackageFeed.Succeed(feed.Project, ["restore", Path.Combine(link, "csharp", "src", "Kinefab.NUnit"), .. feed.BuildApart]);
+        string restored = Path.Combine(feed.BuildApart[1].Split('=')[1], "obj", "Kinefab.NUnit", "project.assets.json");
+        Assert.That(File.ReadAllText(restored), Does.Contain("\"Kinefab/0.1.0\""));
+    }
+
     [TestCase("Kinefab")]
     [TestCase("Kinefab.NUnit")]
     [TestCase("Kinefab.Cli")]

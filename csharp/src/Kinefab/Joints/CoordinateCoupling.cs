@@ -1,5 +1,6 @@
 using System;
 using System.Collections.Generic;
+using System.Linq;
 using Kinefab.Numerics;
 
 namespace Kinefab.Joints;
@@ -26,8 +27,11 @@ internal sealed class CoordinateCoupling
     /// <summary>The rows of the coordinates where they were evaluated last.</summary>
     public readonly ConstraintRow[] Rows;
 
-    /// <summary>Index of the one coordinate that is an <see cref="AngleAmongOthers"/>; -1: there is none, or are several.</summary>
-    public readonly int Among;
+    /// <summary>Indices of the coordinates that may be an <see cref="AngleAmongOthers"/>: angles of joints that turn about other axes too.</summary>
+    public readonly int[] AnglesAmongOthers;
+
+    /// <summary>Index of the one that is, where the rows were built last; any before.</summary>
+    public int Among;
 
     /// <summary>That one where the rows were evaluated last.</summary>
     public AngleAmongOthers Angle;
@@ -47,11 +51,11 @@ internal sealed class CoordinateCoupling
         Offset = offset;
         Last = new double[Coordinates.Length];
         Rows = new ConstraintRow[Coordinates.Length];
-        Among = Array.FindIndex(Coordinates, IsAmongOthers);
-        Among = Among >= 0 && Array.FindIndex(Coordinates, Among + 1, IsAmongOthers) >= 0 ? -1 : Among;
-        if (Among >= 0)
+        AnglesAmongOthers = Enumerable.Range(0, Coordinates.Length).Where(i => IsAmongOthers(Coordinates[i])).ToArray();
+        foreach (int i in AnglesAmongOthers)
         {
-            ((D6Joint)Coordinates[Among].Joint).CoupledAngles |= 1 << (Coordinates[Among].Axis - CoordinateAxis.AngularX);
+            Among = i;
+            ((D6Joint)Coordinates[i].Joint).CoupledAngles |= 1 << (Coordinates[i].Axis - CoordinateAxis.AngularX);
         }
     }
 
@@ -81,9 +85,10 @@ internal sealed class CoordinateCoupling
         Factors[coordinate] * Coordinates[coordinate].Evaluate(body0, body1, Last[coordinate], out Rows[coordinate]);
 
     /// <summary>
-    /// The one angle of a coupling whose joint turns about other axes too, as a ball's twist: 2 atan2(q_i, q_w) of the relative rotation q, which has no
+    /// An angle of a coupling whose joint turns about other axes too, as a ball's twist: 2 atan2(q_i, q_w) of the relative rotation q, which has no
     /// value, and a gradient without end, where the others come to half a turn. The coupling says what it has to be, t; then
     /// C' = 2 f (q_i cos(t / 2) - q_w sin(t / 2)) is 0 where C = f (angle - t) is, and as smooth as q: its row passes there as anywhere else.
+    /// Of several angles the one nearest to where it has no value is taken so, since t is smooth in the others.
     /// </summary>
     public struct AngleAmongOthers
     {
@@ -100,6 +105,13 @@ internal sealed class CoordinateCoupling
 
         /// <summary>Gradient of C' for the angular velocity of frame 1 against frame 0, in the world.</summary>
         public Vector3d Gradient;
+
+        /// <summary>How near an angle is to where it has no value: the square of c = |(q_i, q_w)|, which is 0 there.</summary>
+        public static double SquareOf(in JointFrames f, int axis)
+        {
+            Quaterniond q = f.Relative.Rotation;
+            return q.Vector[axis] * q.Vector[axis] + q.W * q.W;
+        }
 
         /// <summary>C' at a pose; keeps weight and gradient.</summary>
         /// <param name="f">The joint's frames.</param>

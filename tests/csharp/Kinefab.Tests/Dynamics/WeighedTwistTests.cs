@@ -136,6 +136,59 @@ internal sealed class WeighedTwistTests
         Assert.That(world.Findings.Diagnostics, Is.Empty);
     }
 
+    /// <summary>
+    /// A round ball whose angle about X is a ratio times the one about Y goes along q ~ (tan(ratio a / 2), tan(a / 2), 0, 1) at a constant speed, by symmetry:
+    /// over poles of either angle, where it has no value and the other one has. A speed aside leads past them.
+    /// </summary>
+    [TestCase(1, 0)]
+    [TestCase(-1.7, 0)]
+    [TestCase(3, 0)]
+    [TestCase(2, 0.05)]
+    [TestCase(0.5, 0.05)]
+    public void Step_BallOfTwoCoupledAngles_GoesItsWay(double ratio, double aside)
+    {
+        const double dt = 0.001, inertia = 0.1, speed = 5, fine = 1e-4;
+        World world = BallOfTwoCoupledAngles(ratio, inertia);
+        WorldBody ball = world.Bodies[0];
+        ball.AngularVelocity = new Vector3d(ratio, 1, aside) * (speed / Math.Sqrt(ratio * ratio + 1));
+        double energy = world.KineticEnergy, a = 0, way = 0;
+        for (int i = 1; i <= 3000; i++)
+        {
+            world.Step(dt);
+            Assert.That(world.KineticEnergy, Is.EqualTo(energy).Within(3e-5 * energy), $"step {i}");
+            for (; aside == 0 && way < speed * i * dt; a += fine)
+                way += Between(Path(a), Path(a + fine));
+            if (aside == 0)
+                Assert.That(Between(ball.Pose.Rotation, Path(a)), Is.LessThan(8 * fine), $"step {i}");
+        }
+
+        Quaterniond Path(double angle) =>
+            new Quaterniond(Math.Sin(ratio * angle / 2) * Math.Cos(angle / 2), Math.Sin(angle / 2) * Math.Cos(ratio * angle / 2), 0, Math.Cos(ratio * angle / 2) * Math.Cos(angle / 2)).Normalized();
+
+        static double Between(Quaterniond one, Quaterniond other) => 2 * Math.Asin((one.Conjugate() * other).Vector.Length);
+    }
+
+    private static World BallOfTwoCoupledAngles(double ratio, double inertia)
+    {
+        const ConfigurableJointMotion free = ConfigurableJointMotion.Free, locked = ConfigurableJointMotion.Locked;
+        var joint = new ConfigurableJoint
+        {
+            Axis = Vector3d.UnitX, SecondaryAxis = Vector3d.UnitY, XMotion = locked, YMotion = locked, ZMotion = locked,
+            AngularXMotion = free, AngularYMotion = free, AngularZMotion = free,
+        };
+        var body = new Rigidbody { InertiaTensor = new Vector3d(inertia, inertia, inertia), AngularDamping = 0, MaxAngularVelocity = 1000 };
+        return World.Create(
+            SmallScene.Validate(new SceneDocument
+            {
+                Physics = new Physics { Gravity = Vector3d.Zero },
+                GameObjects = [new GameObject { Id = "ball", Name = "ball", Components = [body, joint] }],
+                Couplings = [new Coupling { Kind = CouplingKind.Gear, A = At(Coordinate.AngularY), B = At(Coordinate.AngularX), Ratio = ratio }],
+            }),
+            SolverKind.Exact);
+
+        static JointCoordinate At(Coordinate coordinate) => new() { Component = 1, Coordinate = coordinate };
+    }
+
     private static World CoupledBall(Vector3d start, double aboutX, double slide)
     {
         const ConfigurableJointMotion free = ConfigurableJointMotion.Free, locked = ConfigurableJointMotion.Locked;

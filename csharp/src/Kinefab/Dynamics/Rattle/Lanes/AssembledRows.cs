@@ -136,15 +136,33 @@ internal static class AssembledRows<V>
         }
 
         sum -= coupling.Offset;
-        int among = coupling.Among;
-        if (among >= 0)
+        if (coupling.AnglesAmongOthers.Length == 0)
         {
-            CoordinateAxisMap angle = coupling.Coordinates[among];
-            angle.Joint.FramesAt(PoseOf(batch, block.Bodies[sides[2 * among]]), PoseOf(batch, block.Bodies[sides[(2 * among) + 1]]), out JointFrames f);
-            return coupling.Angle.Evaluate(f, angle.Axis - CoordinateAxis.AngularX, angle.Sign * coupling.Rows[among].GeometricError, angle.Sign * coupling.Factors[among], sum, isBuilt);
+            return sum;
         }
 
-        return sum;
+        double least = double.PositiveInfinity;
+        for (int i = 0; isBuilt && i < coupling.AnglesAmongOthers.Length; i++)
+        {
+            int candidate = coupling.AnglesAmongOthers[i];
+            double square = CoordinateCoupling.AngleAmongOthers.SquareOf(FramesOf(batch, block, coupling, candidate), coupling.Coordinates[candidate].Axis - CoordinateAxis.AngularX);
+            if (square < least)
+            {
+                (least, coupling.Among) = (square, candidate);
+            }
+        }
+
+        int among = coupling.Among;
+        CoordinateAxisMap angle = coupling.Coordinates[among];
+        JointFrames f = FramesOf(batch, block, coupling, among);
+        return coupling.Angle.Evaluate(f, angle.Axis - CoordinateAxis.AngularX, angle.Sign * coupling.Rows[among].GeometricError, angle.Sign * coupling.Factors[among], sum, isBuilt);
+    }
+
+    private static JointFrames FramesOf(LaneRecords<V> batch, RowBlock block, CoordinateCoupling coupling, int coordinate)
+    {
+        int[] sides = block.CouplingSides;
+        coupling.Coordinates[coordinate].Joint.FramesAt(PoseOf(batch, block.Bodies[sides[2 * coordinate]]), PoseOf(batch, block.Bodies[sides[(2 * coordinate) + 1]]), out JointFrames f);
+        return f;
     }
 
     // J = sum of factor times row, added up on the bodies that several joints touch.
@@ -155,7 +173,7 @@ internal static class AssembledRows<V>
         Array.Clear(batch.Linear, first, 3 * block.Bodies.Length);
         Array.Clear(batch.Angular, first, 3 * block.Bodies.Length);
         CoordinateCoupling coupling = batch.Couplings[n]!;
-        bool isWeighed = coupling.Among >= 0 && coupling.Angle.IsActive;
+        bool isWeighed = coupling.AnglesAmongOthers.Length > 0 && coupling.Angle.IsActive;
         for (int i = 0; i < coupling.Rows.Length; i++)
         {
             double factor = coupling.Factors[i] * (isWeighed ? coupling.Angle.Weight : 1);

@@ -40,6 +40,9 @@ internal static class SimulateCommand
                 if (isReplay && result.GetResult(given) is { Implicit: false })
                     result.AddError($"{given.Name} cannot be given beside --replay, whose file says how to run.");
             }
+
+            if (!isReplay && result.GetResult(record) is null && result.GetResult(every) is { Implicit: false })
+                result.AddError("--every says how often --record notes a hash, and there is no --record.");
         });
         scenes.AddTo(command);
         command.SetAction(parsed =>

@@ -70,7 +70,7 @@ internal static class RecordFile
         }
         catch (Exception e) when (e is IOException or UnauthorizedAccessException or ArgumentException or NotSupportedException)
         {
-            return Unreadable(path, Directory.Exists(path) ? "it is a folder" : e.Message.TrimEnd('.'));
+            return Unreadable(path, Directory.Exists(path) ? "it is a folder" : e is FileNotFoundException or DirectoryNotFoundException ? "there is no such file" : e.Message.TrimEnd('.'));
         }
     }
 

@@ -152,13 +152,22 @@ public sealed class RecordingTests
     [Test]
     public void Replay_OfNoFileOrAFolder_IsAFinding()
     {
-        foreach (string path in new[] { File("missing.kfrec"), _folder })
+        foreach ((string path, string said) in new[] { (File("missing.kfrec"), "there is no such file"), (_folder, "it is a folder") })
         {
             (int exit, _, string findings) = CommandLineTests.Run("simulate", Scene, "--replay", path);
 
             Assert.That(exit, Is.EqualTo(1));
-            Assert.That(findings, Does.Contain($"error RECORDING_UNREADABLE: The recording {path} cannot be read: "));
+            Assert.That(findings, Does.Contain($"error RECORDING_UNREADABLE: The recording {path} cannot be read: {said}. "));
         }
+    }
+
+    [Test]
+    public void Every_WithoutARecording_Exits2()
+    {
+        (int exit, _, string findings) = CommandLineTests.Run("simulate", Scene, "--seconds", "1", "--every", "7");
+
+        Assert.That(exit, Is.EqualTo(2));
+        Assert.That(findings, Does.StartWith("--every says how often --record notes a hash"));
     }
 
     [TestCase("--seconds", "1")]

@@ -32,9 +32,6 @@ internal struct AxisRows
     /// <summary>Impulse of drive and friction in the step, N s or N m s.</summary>
     public readonly double MotorImpulse => _drive + _friction;
 
-    /// <summary>Whether a sweep may give an impulse.</summary>
-    public readonly bool IsIdle(double speed) => !_hasDrive && !_isLimited && MaxFriction <= 0 && Math.Abs(speed) <= MaxSpeed;
-
     /// <summary>
     /// Implicit Euler of a spring and damper: a = dt (dt k + d), force: x = 1/(1 + a r), impulse = x (dt d vT + dt k gap - a v) + (1 - x) impulse;
     /// acceleration: x = 1/(1 + a), the same by the inverse response.

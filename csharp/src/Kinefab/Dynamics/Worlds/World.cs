@@ -235,7 +235,7 @@ public sealed partial class World
     {
         if (!(dt > 0 && dt < double.PositiveInfinity))
         {
-            throw new ArgumentOutOfRangeException(nameof(dt));
+            throw new ArgumentOutOfRangeException(nameof(dt), "Not a positive finite number of seconds.");
         }
 
         cancellation.ThrowIfCancellationRequested();

@@ -178,6 +178,6 @@ public sealed class WorldBody
         double square = value.Rotation.LengthSquared;
         return value.Position.IsFinite && square > 0 && square < double.PositiveInfinity
             ? new Pose(value.Position, value.Rotation.Normalized())
-            : throw new ArgumentOutOfRangeException(nameof(value));
+            : throw new ArgumentOutOfRangeException(nameof(value), "Not finite numbers, or a rotation of length 0.");
     }
 }

@@ -51,7 +51,7 @@ public sealed class Sweep
         if (!Finite.Is(to))
             throw new ArgumentOutOfRangeException(nameof(to), "Not a finite number.");
         if (steps < 1)
-            throw new ArgumentOutOfRangeException(nameof(steps));
+            throw new ArgumentOutOfRangeException(nameof(steps), "At least 1.");
         var values = new List<double>(steps + 1);
         var states = new List<MechanismState>(steps + 1);
         var jumps = new List<double>();

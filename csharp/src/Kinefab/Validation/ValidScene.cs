@@ -3,6 +3,7 @@ using System.Collections.Generic;
 using System.Diagnostics;
 using Kinefab.Diagnostics;
 using Kinefab.Document;
+using Kinefab.Json;
 using Kinefab.Numerics;
 
 namespace Kinefab.Validation;
@@ -127,7 +128,7 @@ public sealed partial class ValidScene
         for (int i = 0; i < Document.GameObjects.Count; i++)
             joints += Held(i) is null ? 0 : 1;
 
-        return $"scene of {Document.GameObjects.Count} objects, {bodies} bodies, {joints} joints, {Document.Couplings.Count} couplings; {Report}";
+        return $"scene of {Invariant.Counted(Document.GameObjects.Count, "object")}, {Invariant.Counted(bodies, "body", "bodies")}, {Invariant.Counted(joints, "joint")}, {Invariant.Counted(Document.Couplings.Count, "coupling")}; {Report}";
     }
 
     private int Index(int gameObject) => (uint)gameObject < (uint)places.Count

@@ -33,6 +33,7 @@ public class SceneCaseTests
             // A damaged binary file has no lines to name.
             Assert.That(report.Diagnostics.Where(diagnostic => !diagnostic.Code.StartsWith("CONTAINER_", StringComparison.Ordinal)).Select(diagnostic => diagnostic.Line), Has.All.GreaterThan(0));
             Assert.That(report.Diagnostics.Select(diagnostic => diagnostic.Message + diagnostic.Remedy), Has.None.Match(@"\{\w+\}"));
+            Assert.That(report.Diagnostics.Select(diagnostic => diagnostic.Message), Has.None.Match(@"\.\d{10,}"), "what rounding adds to a measured number");
         }
     }
 

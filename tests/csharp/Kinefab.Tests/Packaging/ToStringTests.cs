@@ -55,7 +55,9 @@ public sealed class ToStringTests
             (state, ["Lever/Crank:1.angle 90 deg", " m"]),
             (drive, ["Reached", "m,", "deg"]),
             (new Sweep(solver).Range(mechanism.NewState(), 0).High, ["360 (open)"]),
-            (mechanism.CountMobility(), ["mobility 1", "rows", "redundant"]),
+            (mechanism.CountMobility(), ["mobility 1", "rows", "redundant", "0 idle freedoms, 1 island"]),
+            (mechanism.CountMobility().Islands[0], ["mobility 1, 3 redundant rows, 1 loop"]),
+            (mechanism.CountMobility().Bodies[0], ["0 translations, 1 rotation"]),
             (world, ["Exact world at 0.1 s"]),
             (world.Bodies[1], ["kg at (", " m, ", "m/s", "rad/s"]),
             (world.Joints[0], ["HingeJoint Lever/Crank:1 \"Shaft\", Angle 0 deg"]),
@@ -76,7 +78,7 @@ public sealed class ToStringTests
             string text = thing.ToString()!;
             foreach (string word in words)
                 Assert.That(text, Does.Contain(word));
-            Assert.That(text, Does.Not.Contain("\n").And.Not.Contain("Kinefab."));
+            Assert.That(text, Does.Not.Contain("\n").And.Not.Contain("Kinefab.").And.Not.Match(@"\b1 [a-z]{3,}s\b"));
         }
     }
 

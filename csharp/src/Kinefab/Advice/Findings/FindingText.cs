@@ -1,7 +1,7 @@
 using System.Collections.Generic;
-using System.Globalization;
 using Kinefab.Advice.Trials;
 using Kinefab.Diagnostics;
+using Kinefab.Json;
 
 namespace Kinefab.Advice.Findings;
 
@@ -30,6 +30,8 @@ internal static class FindingText
             return $"{best.Change}: {best.After} instead of {before}{best.Cost}.";
         if (score < 1)
             return "Nothing to do.";
-        return tried.Count == 0 ? "Nothing was tried." : $"None of {tried.Count.ToString(CultureInfo.InvariantCulture)} changes tried against it helps.";
+        return tried.Count == 0 ? "Nothing was tried."
+            : tried.Count == 1 ? "The one change tried against it does not help."
+            : $"None of {Invariant.Text(tried.Count)} changes tried against it helps.";
     }
 }

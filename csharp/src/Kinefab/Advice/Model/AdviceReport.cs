@@ -3,6 +3,7 @@ using System.Collections.Generic;
 using System.Diagnostics;
 using System.Linq;
 using Kinefab.Diagnostics;
+using Kinefab.Json;
 
 namespace Kinefab.Advice;
 
@@ -35,5 +36,5 @@ public sealed class AdviceReport
     public Report Report { get; }
 
     /// <summary>120 steps of 0.02 s, 2 findings, 14 changes tried; 1 warning.</summary>
-    public override string ToString() => FormattableString.Invariant($"{Steps} steps of {Step} s, {Findings.Count} findings, {Trials} changes tried; {Report}");
+    public override string ToString() => FormattableString.Invariant($"{Invariant.Counted(Steps, "step")} of {Step} s, {Invariant.Counted(Findings.Count, "finding")}, {Invariant.Counted(Trials, "change")} tried; {Report}");
 }

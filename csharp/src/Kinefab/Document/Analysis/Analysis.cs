@@ -1,5 +1,6 @@
 using System;
 using System.Collections.Generic;
+using Kinefab.Json;
 
 namespace Kinefab.Document;
 
@@ -30,5 +31,5 @@ public sealed partial record Analysis : DocumentObject
     [Field(Always = true)]
     public IReadOnlyList<BodyFreedom> Bodies { get; init; } = Array.Empty<BodyFreedom>();
 
-    private protected override string Describe() => $"mobility {Mobility}, {Islands.Count} islands, {Bodies.Count} bodies";
+    private protected override string Describe() => $"mobility {Mobility}, {Invariant.Counted(Islands.Count, "island")}, {Invariant.Counted(Bodies.Count, "body", "bodies")}";
 }

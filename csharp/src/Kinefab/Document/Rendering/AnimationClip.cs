@@ -1,5 +1,6 @@
 using System;
 using System.Collections.Generic;
+using Kinefab.Json;
 
 namespace Kinefab.Document;
 
@@ -35,5 +36,5 @@ public sealed partial record AnimationClip : DocumentObject
     [Field(Required = true)]
     public IReadOnlyList<AnimationTrack> Tracks { get; init; } = Array.Empty<AnimationTrack>();
 
-    private protected override string Describe() => $"animation \"{Name}\" of {Tracks.Count} tracks, {Times.Count} keys, {WrapMode}";
+    private protected override string Describe() => $"animation \"{Name}\" of {Invariant.Counted(Tracks.Count, "track")}, {Invariant.Counted(Times.Count, "key")}, {WrapMode}";
 }

@@ -1,6 +1,7 @@
 using System;
 using System.Collections.Generic;
 using System.Linq;
+using Kinefab.Json;
 
 namespace Kinefab.Document;
 
@@ -103,7 +104,7 @@ public sealed partial record SceneDocument : DocumentObject
     }
 
     private protected override string Describe() =>
-        $"scene of {gameObjects.Length} objects, {Couplings.Count} couplings, {Meshes.Count} meshes, {Materials.Count} materials";
+        $"scene of {Invariant.Counted(gameObjects.Length, "object")}, {Invariant.Counted(Couplings.Count, "coupling")}, {Invariant.Counted(Meshes.Count, "mesh", "meshes")}, {Invariant.Counted(Materials.Count, "material")}";
 
     // No record: a document that is compared does not compare its text, which knows the document.
     private sealed class SourceText

@@ -2,6 +2,7 @@ using System;
 using System.Collections.Generic;
 using System.Diagnostics;
 using Kinefab.Diagnostics;
+using Kinefab.Json;
 
 namespace Kinefab.Dynamics;
 
@@ -59,10 +60,10 @@ public sealed class RunResult
     public override string ToString()
     {
         string ended = HasEnded ? ", ended early" : "";
-        string stops = Stops > 0 ? $", {Stops} stops" : "";
+        string stops = Stops > 0 ? ", " + Invariant.Counted(Stops, "stop") : "";
         string last = "";
         for (int i = 0; i < _names.Length; i++)
             last += FormattableString.Invariant($"; {_names[i]} {_columns[i][_columns[i].Count - 1]:0.######}");
-        return FormattableString.Invariant($"{Times.Count - 1} steps to {Times[Times.Count - 1]:0.######} s{ended}{stops}{last}");
+        return FormattableString.Invariant($"{Invariant.Counted(Times.Count - 1, "step")} to {Times[Times.Count - 1]:0.######} s{ended}{stops}{last}");
     }
 }

@@ -7,6 +7,7 @@ using Kinefab.Diagnostics;
 using Kinefab.Document;
 using Kinefab.Dynamics.Rattle;
 using Kinefab.Dynamics.Pgs;
+using Kinefab.Json;
 using Kinefab.Numerics;
 using Kinefab.Validation;
 
@@ -273,7 +274,7 @@ public sealed partial class World
 
     /// <summary>Solver, time, and how many bodies and joints there are.</summary>
     public override string ToString() =>
-        FormattableString.Invariant($"{Solver} world at {Time:0.######} s: {Bodies.Count} bodies, {Joints.Count} joints{(Stops > 0 ? $", {Stops} stops" : "")}");
+        FormattableString.Invariant($"{Solver} world at {Time:0.######} s: {Invariant.Counted(Bodies.Count, "body", "bodies")}, {Invariant.Counted(Joints.Count, "joint")}{(Stops > 0 ? ", " + Invariant.Counted(Stops, "stop") : "")}");
 
     private void TellOnce(Diagnostic found)
     {

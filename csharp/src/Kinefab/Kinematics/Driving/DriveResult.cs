@@ -1,6 +1,7 @@
 using System.Diagnostics;
 using System;
 using Kinefab.Document;
+using Kinefab.Json;
 
 namespace Kinefab.Kinematics;
 
@@ -96,7 +97,7 @@ public readonly struct DriveResult
         string way = Converged ? "" : FormattableString.Invariant($" after {100 * Fraction:0.###} % of the way");
         string limit = Limit is ReachedLimit reached ? $", {reached}" : "";
         string branches = Branches > 1 ? FormattableString.Invariant($", the straightest of {Branches} ways") : "";
-        return FormattableString.Invariant($"{Status}{way}{limit}{branches}; worst gap {ErrorMetres:0.0e+0} m, {ErrorDegrees:0.0e+0} deg; {Iterations} iterations");
+        return FormattableString.Invariant($"{Status}{way}{limit}{branches}; worst gap {ErrorMetres:0.0e+0} m, {ErrorDegrees:0.0e+0} deg; {Invariant.Counted(Iterations, "iteration")}");
     }
 }
 

@@ -1,6 +1,7 @@
 using System;
 using System.Collections.Generic;
 using System.Diagnostics;
+using Kinefab.Json;
 using Kinefab.Numerics;
 
 namespace Kinefab.Kinematics;
@@ -131,6 +132,6 @@ public sealed class SweepResult
         MechanismCoordinate driven = States[0].Mechanism.Coordinates[Coordinate];
         string stop = Stop is RangeLimit limit ? FormattableString.Invariant($", stopped at {limit} {driven.Unit}") : "";
         string jumps = Jumps.Count > 0 ? FormattableString.Invariant($", on another branch from {Jumps[0]:0.######} {driven.Unit} on") : "";
-        return FormattableString.Invariant($"{driven.Name} {Values[0]:0.######} to {Values[Values.Count - 1]:0.######} {driven.Unit} in {States.Count - 1} steps{stop}{jumps}; worst gap {WorstErrorMetres:0.0e+0} m, {WorstErrorDegrees:0.0e+0} deg");
+        return FormattableString.Invariant($"{driven.Name} {Values[0]:0.######} to {Values[Values.Count - 1]:0.######} {driven.Unit} in {Invariant.Counted(States.Count - 1, "step")}{stop}{jumps}; worst gap {WorstErrorMetres:0.0e+0} m, {WorstErrorDegrees:0.0e+0} deg");
     }
 }

@@ -6,6 +6,7 @@ using System.Threading;
 using Kinefab.Diagnostics;
 using Kinefab.Document;
 using Kinefab.Joints;
+using Kinefab.Json;
 using Kinefab.Mechanisms;
 using Kinefab.Numerics;
 using Kinefab.Validation;
@@ -239,5 +240,5 @@ public sealed partial class Mechanism
     }
 
     /// <summary>How many bodies, joints and couplings it has, and its coordinates.</summary>
-    public override string ToString() => $"mechanism of {GameObjects.Length} bodies, {JointPlaces.Length} joints, {Couplings.Length} couplings; coordinates: {SceneNames.There(Array.ConvertAll(_coordinates, c => c.Name))}";
+    public override string ToString() => $"mechanism of {Invariant.Counted(GameObjects.Length, "body", "bodies")}, {Invariant.Counted(JointPlaces.Length, "joint")}, {Invariant.Counted(Couplings.Length, "coupling")}; coordinates: {SceneNames.There(Array.ConvertAll(_coordinates, c => c.Name))}";
 }

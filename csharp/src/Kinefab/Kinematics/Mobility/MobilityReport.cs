@@ -1,5 +1,6 @@
 using System.Collections.Generic;
 using System.Diagnostics;
+using Kinefab.Json;
 
 namespace Kinefab.Kinematics;
 
@@ -23,8 +24,8 @@ public sealed class BodyMobility
     /// <summary>Independent angular velocities, 0 to 3.</summary>
     public int Rotations { get; }
 
-    /// <summary>object 3: 0 translations, 1 rotations.</summary>
-    public override string ToString() => $"object {GameObject}: {Translations} translations, {Rotations} rotations";
+    /// <summary>object 3: 0 translations, 1 rotation.</summary>
+    public override string ToString() => $"object {GameObject}: {Invariant.Counted(Translations, "translation")}, {Invariant.Counted(Rotations, "rotation")}";
 }
 
 /// <summary>Bodies that hang together by joints or couplings, the ground left out.</summary>
@@ -55,8 +56,8 @@ public sealed class IslandMobility
     /// <summary>Joints beyond a spanning tree.</summary>
     public int Loops { get; }
 
-    /// <summary>objects 1, 2, 3: mobility 1, 3 redundant rows, 1 loops.</summary>
-    public override string ToString() => $"objects {string.Join(", ", GameObjects)}: mobility {Mobility}, {Redundant} redundant rows, {Loops} loops";
+    /// <summary>objects 1, 2, 3: mobility 1, 3 redundant rows, 1 loop.</summary>
+    public override string ToString() => $"objects {string.Join(", ", GameObjects)}: mobility {Mobility}, {Invariant.Counted(Redundant, "redundant row")}, {Invariant.Counted(Loops, "loop")}";
 }
 
 /// <summary>Redundant rows of one joint, the rows of a loop being counted from its tree to its closing joints.</summary>
@@ -103,8 +104,8 @@ public sealed class IdleFreedom
     /// <summary>How many.</summary>
     public int Count { get; }
 
-    /// <summary>objects 4: 1 idle freedoms.</summary>
-    public override string ToString() => $"objects {string.Join(", ", GameObjects)}: {Count} idle freedoms";
+    /// <summary>objects 4: 1 idle freedom.</summary>
+    public override string ToString() => $"objects {string.Join(", ", GameObjects)}: {Invariant.Counted(Count, "idle freedom")}";
 }
 
 /// <summary>Mobility of a mechanism, counted from its joints.</summary>
@@ -164,13 +165,13 @@ public sealed class MobilityReport
     /// <summary>Freedoms of a loop's body, or of several that move as one between two joints, that move no other body.</summary>
     public IReadOnlyList<IdleFreedom> Idle { get; }
 
-    /// <summary>mobility 1 (2 at first order), 10 rows, 3 redundant, 0 idle freedoms, 1 islands.</summary>
+    /// <summary>mobility 1 (2 at first order), 10 rows, 3 redundant, 0 idle freedoms, 1 island.</summary>
     public override string ToString()
     {
         int idle = 0;
         foreach (IdleFreedom freedom in Idle)
             idle += freedom.Count;
         string firstOrder = FirstOrder == Mobility ? "" : $" ({FirstOrder} at first order)";
-        return $"mobility {Mobility}{firstOrder}, {Rows} rows, {Redundant} redundant, {idle} idle freedoms, {Islands.Count} islands";
+        return $"mobility {Mobility}{firstOrder}, {Invariant.Counted(Rows, "row")}, {Redundant} redundant, {Invariant.Counted(idle, "idle freedom")}, {Invariant.Counted(Islands.Count, "island")}";
     }
 }

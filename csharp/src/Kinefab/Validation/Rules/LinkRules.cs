@@ -85,7 +85,7 @@ internal static class LinkRules
         Quaterniond turn = (own.Pose.Rotation * link.AnchorRotation.Normalized()).Conjugate() * (above.Pose.Rotation * link.ParentAnchorRotation.Normalized());
         double angle = 2 * Trigonometry.Atan2(turn.Vector.Length, Math.Abs(turn.W)) * 180 / Math.PI;
         if (gap > LeastGap || angle > LeastAngle)
-            at.Report("parentAnchorPosition", DiagnosticCodes.LinkAnchorsApart, ("distance", Invariant.Text(gap)), ("angle", Invariant.Text(angle)));
+            at.Report("parentAnchorPosition", DiagnosticCodes.LinkAnchorsApart, ("distance", Invariant.Measured(gap)), ("angle", Invariant.Measured(angle)));
     }
 
     // Metres and degrees; numbers of a file are rounded.

@@ -40,7 +40,7 @@ internal static class AnchorRules
     private static void Apart(double gap, in Place at)
     {
         if (gap > Tolerance)
-            at.Report("connectedAnchor", DiagnosticCodes.JointAnchorsApart, ("gap", Invariant.Text(gap)));
+            at.Report("connectedAnchor", DiagnosticCodes.JointAnchorsApart, ("gap", Invariant.Measured(gap)));
     }
 
     private static double Length(ConfigurableJoint joint, Vector3d along, ConfigurableJointMotion motion) => new Vector3d(

@@ -14,6 +14,7 @@ internal sealed class LaneStep<V>
     private readonly bool[] _hasFailed = new bool[Lane<V>.Width];
     private readonly bool[] _hasLeftLate = new bool[Lane<V>.Width];
 
+    private readonly bool[] _isStressed = new bool[Lane<V>.Width];
     private readonly bool[] _isTakenOver = new bool[Lane<V>.Width];
 
     // Lanes of which the last step has not written what their joints did, its length, and its impulses.
@@ -164,12 +165,13 @@ internal sealed class LaneStep<V>
 
         RattleStep<V>.KickAndDrift(Batch, dt, tolerance, _converged);
         _limits?.Measure(Batch);
+        TakeOutSelfStress(dt, tolerance);
         for (int lane = 0; lane < Occupied; lane++)
         {
             if (!_isAlone[lane])
             {
                 _hasFailed[lane] = !_converged[lane] || FreeMotion<V>.HasTurnedFar(Batch, lane);
-                _isAlone[lane] = _hasFailed[lane] || (_limits != null && _limits.IsPassed(Batch, lane, tolerance)) || (Batch.Axes != null && !Batch.Axes.HasFreeDrift(lane));
+                _isAlone[lane] = _hasFailed[lane] || _isStressed[lane] || (_limits != null && _limits.IsPassed(Batch, lane, tolerance)) || (Batch.Axes != null && !Batch.Axes.HasFreeDrift(lane));
             }
         }
     }
@@ -318,6 +320,21 @@ internal sealed class LaneStep<V>
         Batch.Exchange(tape, lane);
         Batch.Axes?.Exchange(tape, lane);
         tape.Value(ref _isBuilt[lane]);
+    }
+
+    private void TakeOutSelfStress(double dt, double tolerance)
+    {
+        if (!Batch.Shape.IsRedundant || Batch.Shape.Loops != LoopConsistency.Exact)
+        {
+            return;
+        }
+
+        for (int lane = 0; lane < Lane<V>.Width; lane++)
+        {
+            Batch.Work.Active[lane] = !_isAlone[lane] && _converged[lane] ? 1 : 0;
+        }
+
+        SelfStress.TakeOut(Batch, dt, tolerance, _isStressed);
     }
 
     private void MeasureEnergy(double dt)

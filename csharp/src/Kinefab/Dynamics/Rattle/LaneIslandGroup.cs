@@ -218,6 +218,8 @@ internal sealed class LaneIslandGroup<V> : IslandGroup
         LaneTransfer<ScalarLane>.GatherConstants(_spare, 0, island, _mechanism);
         LaneTransfer<ScalarLane>.Gather(_spare, _mechanism, dt);
         LaneTransfer<ScalarLane>.BeginStep(_spare);
+        MovingFrame<ScalarLane>.Copy(free.Batch, lane, _spare, 0);
+        MovingFrame<ScalarLane>.Enter(_spare);
         _spare.Reset();
         LaneTransfer<V>.CopyGuess(free.Batch, lane, _spare, 0);
         AxisRows<V>? axes = (_resting.Length > 0 ? _resting[index] : free).Batch.Axes;
@@ -244,6 +246,7 @@ internal sealed class LaneIslandGroup<V> : IslandGroup
         GeometricStiffness<ScalarLane>.Estimate(_spare, _spare.VelocityImpulses, dt / 2);
         _spare.Work.Active[0] = 1;
         LaneTransfer<ScalarLane>.EndStep(_spare);
+        MovingFrame<ScalarLane>.Leave(_spare, dt);
         LaneTransfer<ScalarLane>.Scatter(_spare, 1, _mechanism);
         Reactions<ScalarLane>.Report(_spare, 1, _mechanism.Reactions, dt, _spare.Work.TotalImpulses);
         free.TakeOver(lane, _spare, 0);

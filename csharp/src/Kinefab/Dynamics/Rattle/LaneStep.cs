@@ -96,6 +96,8 @@ internal sealed class LaneStep<V>
         }
 
         LaneTransfer<V>.BeginStep(Batch);
+        MovingFrame<V>.Find(Batch, dt);
+        MovingFrame<V>.Enter(Batch);
         CoupledTurns<V>.Gather(Batch);
         if (isMoved)
         {
@@ -116,6 +118,7 @@ internal sealed class LaneStep<V>
             _isUnread[lane] = false;
             Batch.Work.Moved[lane] = 0;
             LaneTransfer<V>.CopyGuess(from.Batch, lane, Batch, lane);
+            MovingFrame<V>.Copy(from.Batch, lane, Batch, lane);
         }
     }
 
@@ -254,6 +257,7 @@ internal sealed class LaneStep<V>
             DelassusMatrix<V>.InverseInertias(Batch);
         }
 
+        MovingFrame<V>.Leave(Batch, dt);
         RattleStep<V>.Accept(Batch);
         GeometricStiffness<V>.Estimate(Batch, Batch.VelocityImpulses, dt / 2);
         LaneTransfer<V>.EndStep(Batch);

@@ -42,6 +42,8 @@ internal sealed class ScalarIslandGroup : IslandGroup
             _corrections[i]?.Undo();
             bool isMoved = LaneTransfer<ScalarLane>.Gather(batch, _mechanism, dt);
             LaneTransfer<ScalarLane>.BeginStep(batch);
+            MovingFrame<ScalarLane>.Find(batch, dt);
+            MovingFrame<ScalarLane>.Enter(batch);
             if (isMoved)
             {
                 batch.ClearHistory();
@@ -60,6 +62,7 @@ internal sealed class ScalarIslandGroup : IslandGroup
 
             LaneTransfer<ScalarLane>.EndStep(batch);
             batch.Work.Active[0] = 1;
+            MovingFrame<ScalarLane>.Leave(batch, dt);
             LaneTransfer<ScalarLane>.Scatter(batch, 1, _mechanism);
             Reactions<ScalarLane>.Report(batch, 1, _mechanism.Reactions, dt, batch.Work.TotalImpulses);
         }

@@ -13,6 +13,9 @@ internal static class LaneTransfer<V>
     // A kinematic body that is this close to where it was driven has not been moved otherwise, m and half radians.
     private const double Near = 1e-9;
 
+    // What a program's targets leave of an even velocity, of their distance from the origin a step.
+    private const double Rounding = 1e-14;
+
     // Numbers of a pose: position, then rotation xyzw.
     private const int PoseCount = 7;
 
@@ -71,6 +74,7 @@ internal static class LaneTransfer<V>
     {
         batch.Work.Cancellation = mechanism.Cancellation;
         Lane<V>.Splat(0).Store(batch.Work.Moved, 0);
+        Lane<V>.Splat(0).Store(batch.Work.Uneven, 0);
         for (int b = 0; b < batch.Shape.MovingBodies; b++)
         {
             GatherState(batch, b, mechanism.Bodies);
@@ -98,6 +102,14 @@ internal static class LaneTransfer<V>
 
         return isMoved;
     }
+
+    /// <summary>Whether two velocities of a kinematic body differ by no more than the rounding of its targets.</summary>
+    /// <param name="velocity">One, m/s.</param>
+    /// <param name="other">The other, m/s.</param>
+    /// <param name="position">Where it is, m.</param>
+    /// <param name="dt">Step, s.</param>
+    public static bool IsSame(Vector3d velocity, Vector3d other, Vector3d position, double dt) =>
+        (velocity - other).Length <= Rounding * (position.Length / dt + velocity.Length);
 
     /// <summary>Damping, the limit of the angular speed, and momenta, in all lanes after their <see cref="Gather"/>.</summary>
     public static void BeginStep(LaneRecords<V> batch)
@@ -314,6 +326,7 @@ internal static class LaneTransfer<V>
             || Distance(pose.Rotation, ReadQuaternion(a, o + BodyLanes.EndQ * w)) > Near;
         batch.Work.Moved[lane] += isMoved ? 1 : 0;
         BodyMotion.PredictVelocity(bodies, body, Vector3d.Zero, dt);
+        batch.Work.Uneven[lane] += IsSame(bodies.LinearVelocities[body], ReadVector(a, o + BodyLanes.V * w), pose.Position, dt) ? 0 : 1;
         Write(a, o + BodyLanes.X * w, pose.Position);
         Write(a, o + BodyLanes.Q * w, pose.Rotation);
         Write(a, o + BodyLanes.V * w, bodies.LinearVelocities[body]);

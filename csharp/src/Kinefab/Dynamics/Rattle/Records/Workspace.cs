@@ -42,6 +42,8 @@ internal sealed class Workspace<V>
         Correction = new double[unknowns];
         Active = new double[w];
         Moved = new double[w];
+        Uneven = new double[w];
+        FrameVelocity = new double[3 * w];
         MaxError = new double[w];
         MaxChange = new double[w];
         MaxGap = new double[w];
@@ -121,6 +123,12 @@ internal sealed class Workspace<V>
 
     /// <summary>Not 0 in lanes of which a pose is not the one that the last step left.</summary>
     public double[] Moved { get; }
+
+    /// <summary>Not 0 in lanes of which a kinematic body has another velocity than in the last step.</summary>
+    public double[] Uneven { get; }
+
+    /// <summary>Of the frame that each lane makes its step in, m/s: see <see cref="MovingFrame{V}"/>.</summary>
+    public double[] FrameVelocity { get; }
 
     /// <summary>Largest error, and largest change of an error, of each lane.</summary>
     public double[] MaxError { get; }

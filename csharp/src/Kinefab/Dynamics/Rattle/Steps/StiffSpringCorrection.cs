@@ -105,7 +105,7 @@ internal sealed class StiffSpringCorrection
         for (int body = 0; body < linear.Length; body++)
         {
             int o = LaneBatch<ScalarLane>.Body(body, 0);
-            linear[body] = LaneTransfer<ScalarLane>.ReadVector(batch.Bodies, o + BodyLanes.V);
+            linear[body] = LaneTransfer<ScalarLane>.ReadVector(batch.Bodies, o + BodyLanes.V) + LaneTransfer<ScalarLane>.ReadVector(batch.Work.FrameVelocity, 0);
             angular[body] = LaneTransfer<ScalarLane>.ReadVector(batch.Bodies, o + BodyLanes.W);
         }
     }

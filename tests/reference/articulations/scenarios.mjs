@@ -32,6 +32,13 @@ const fourBar = [
   link("revolute", "z", { x: free }, { parent: 2, at: [0, -0.3, 0.02], own: [0.3, 0, 0] }),
 ];
 
+const fiveBar = (first) => [
+  link("revolute", "z", { x: free }, { parent: first }),
+  link("revolute", "z", { x: drive({ damping: 0.5 }) }, { parent: first + 1, at: [0.3, 0.05, 0], own: [0, 0.3, 0] }),
+  link("revolute", "z", { x: free }, { parent: first, at: [0.3, -0.52, 0.02], own: [-0.3, 0, -0.03] }),
+];
+const closed = (first) => [{ ...ball({ link: first + 2 }, { link: first + 3 }), frame0: { position: [0, -0.3, 0] }, frame1: { position: [0.3, 0, 0] } }];
+
 // Links of 0.6 m in one line along X, bent by an angle at the first joint and back at the second.
 const stretched = (count, bent = 0) => ({
   links: [base(), ...Array.from({ length: count }, (_, i) => link("revolute", "z", { x: drive({ position: [bent, -2 * bent][i] ?? 0 }) }, { parent: i, at: [0.3, 0, 0], own: [-0.3, 0, 0] }))],
@@ -112,7 +119,9 @@ const all = {
   "step-small": ["Steps of 5 ms", arm("revolute", "z", { x: limited(-0.6, 1, { damping: 0.5 }) }, {}, { dt: 0.005 })],
   "loop-to-world": ["A four-bar: a ball joint holds the tip of three links to the world", { links: fourBar, joints: [{ ...ball(undefined, { link: 3 }), frame0: { position: [0.3, -0.52, 0.09] }, frame1: { position: [-0.3, 0, 0] } }] }],
   "loop-to-world-driven": ["The same with a driven crank", { links: [fourBar[0], link("revolute", "z", { x: drive({ stiffness: 200, damping: 40, target: 0.6 }) }), ...fourBar.slice(2)], joints: [{ ...ball(undefined, { link: 3 }), frame0: { position: [0.3, -0.52, 0.09] }, frame1: { position: [-0.3, 0, 0] } }] }],
-  "loop-of-links": ["A five-bar: a ball joint between the tips of two arms of an articulation closes the loop", { links: [base(), link("revolute", "z", { x: free }), link("revolute", "z", { x: drive({ damping: 0.5 }) }, { parent: 1, at: [0.3, 0.05, 0], own: [0, 0.3, 0] }), link("revolute", "z", { x: free }, { at: [0.3, -0.52, 0.02], own: [-0.3, 0, -0.03] })], joints: [{ ...ball({ link: 2 }, { link: 3 }), frame0: { position: [0, -0.3, 0] }, frame1: { position: [0.3, -0, 0] } }] }],
+  "loop-of-links": ["A five-bar: a ball joint between the tips of two arms of an articulation closes the loop", { links: [base(), ...fiveBar(0)], joints: closed(0) }],
+  "loop-on-a-link": ["The same on a link that swings: its ball joint takes no notice of what one tip's impulse does to the other", { links: [base(), link("revolute", "z", { x: free }, { at: [0, 0, 0], own: [0, 0.1, 0] }), ...fiveBar(1)], joints: closed(1) }],
+  "loop-floating": ["The same on a floating root", { ...floating, links: [base(), ...fiveBar(0)], joints: closed(0) }],
   "loop-stretched": ["A ball joint holds the tip of two links in one line: its row along them has next to no response", stretched(2)],
   "loop-stretched-three": ["The same with three links", stretched(3)],
   "loop-near-stretched": ["Two links that are bent a little", stretched(2, 0.05)],

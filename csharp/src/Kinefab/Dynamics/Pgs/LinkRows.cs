@@ -9,7 +9,9 @@ namespace Kinefab.Dynamics.Pgs;
 /// <summary>
 /// Rows of joints and couplings that act on links of articulations, in the sweeps: PhysX's 1-D rows with the response of the whole
 /// articulation in the place of a body's inverse mass, without preprocessing. Those between one link and the world are solved inside the
-/// articulation's own sweep. Source: DyConstraintSetup.cpp, setupSolverConstraint (isExtended).
+/// articulation's own sweep. A joint between two links of one articulation does not know what an impulse on the one does to the other: neither its
+/// rows' responses nor, until all its rows are done, the speeds that they see. Source: DyConstraintSetup.cpp, setupSolverConstraint (isExtended);
+/// DyArticulationContactPrep.cpp, getImpulseResponse; DySolverConstraints.cpp, solveExt1D.
 /// </summary>
 internal sealed class LinkRows
 {
@@ -31,6 +33,10 @@ internal sealed class LinkRows
     private readonly ConstraintRow[] _given = new ConstraintRow[JointModel.MaxRows];
     private int _count;
 
+    // Motions of two links of one articulation, as the joint between them sees them.
+    private Twist _seen0;
+    private Twist _seen1;
+
     private struct Row
     {
         public int Joint;
@@ -40,15 +46,21 @@ internal sealed class LinkRows
 
         // Solved inside the articulation.
         public bool IsInner;
+
+        // Both sides are links of one articulation.
+        public bool IsWithin;
     }
 
     private struct Part
     {
         public int Body;
         public Wrench Direction;
+
+        /// <summary>What a unit of impulse gives the body: the direction by the joint's mass scales.</summary>
+        public Wrench Push;
         public Twist Start;
 
-        /// <summary>Of a rigid body: its change of velocity by a unit of impulse.</summary>
+        /// <summary>Of a joint's side: the body's change of velocity by a unit of impulse on it alone.</summary>
         public Twist Response;
     }
 
@@ -116,8 +128,8 @@ internal sealed class LinkRows
                     if (Class(_given[i].Hint) != hint)
                         continue;
                     ref Row row = ref Begin(j);
-                    Add(ref row, joint.Body0, _given[i].Linear0, _given[i].Angular0);
-                    Add(ref row, joint.Body1, _given[i].Linear1 * -1, _given[i].Angular1 * -1);
+                    Add(ref row, joint.Body0, _given[i].Linear0, _given[i].Angular0, joint.InverseMassScale0, joint.InverseInertiaScale0);
+                    Add(ref row, joint.Body1, _given[i].Linear1 * -1, _given[i].Angular1 * -1, joint.InverseMassScale1, joint.InverseInertiaScale1);
                     double scale = _given[i].Has(RowFlags.HasDriveLimit) && joint.DriveLimitsAreForces ? Math.Min(dt, 1) : 1;
                     End(ref row, _given[i], scale, dt, inverseDt);
                 }
@@ -140,30 +152,57 @@ internal sealed class LinkRows
             ref Row row = ref _made[i];
             if (row.IsInner)
                 continue;
-            double speed = 0;
-            for (int p = row.First; p < row.First + row.Parts; p++)
-            {
-                ref Part part = ref _parts[p];
-                Twist change = _links.IsLink(part.Body)
-                    ? _links.Motion(part.Body) - part.Start
-                    : new Twist(sqrtInertia[part.Body].Times(deltas[part.Body].Angular.Vector).Vector, deltas[part.Body].Linear.Vector);
-                speed += Wrench.Dot(part.Direction, change);
-            }
-
-            double impulse = Solve(i, speed);
+            double impulse = Solve(i, row.IsWithin ? SpeedWithin(i) : Speed(row, deltas, sqrtInertia));
             for (int p = row.First; impulse != 0 && p < row.First + row.Parts; p++)
             {
                 ref Part part = ref _parts[p];
                 if (_links.IsLink(part.Body))
                 {
-                    _links.Solvers[_links.ArticulationOf[part.Body]].Responses.Apply(_links.LinkOf[part.Body], part.Direction * impulse);
+                    _links.Solvers[_links.ArticulationOf[part.Body]].Responses.Apply(_links.LinkOf[part.Body], part.Push * impulse);
                     continue;
                 }
 
                 deltas[part.Body].Linear += new Double4(part.Response.Linear * impulse, 0);
-                deltas[part.Body].Angular += sqrtInertia[part.Body].Times(part.Direction.Torque * impulse);
+                deltas[part.Body].Angular += sqrtInertia[part.Body].Times(part.Push.Torque * impulse);
+            }
+
+            if (row.IsWithin)
+            {
+                _seen0 += _parts[row.First].Response * impulse;
+                _seen1 += _parts[row.First + 1].Response * impulse;
             }
         }
+    }
+
+    // Of the row's bodies as they are now, less that of the start.
+    private double Speed(in Row row, BodyDelta[] deltas, SqrtInertia[] sqrtInertia)
+    {
+        double speed = 0;
+        for (int p = row.First; p < row.First + row.Parts; p++)
+        {
+            ref Part part = ref _parts[p];
+            Twist change = _links.IsLink(part.Body)
+                ? _links.Motion(part.Body) - part.Start
+                : new Twist(sqrtInertia[part.Body].Times(deltas[part.Body].Angular.Vector).Vector, deltas[part.Body].Linear.Vector);
+            speed += Wrench.Dot(part.Direction, change);
+        }
+
+        return speed;
+    }
+
+    // The same as the joint sees it, whose first row looks at the links.
+    private double SpeedWithin(int i)
+    {
+        ref Row row = ref _made[i];
+        ref Part part0 = ref _parts[row.First];
+        ref Part part1 = ref _parts[row.First + 1];
+        if (i == 0 || _made[i - 1].Joint != row.Joint)
+        {
+            _seen0 = _links.Motion(part0.Body);
+            _seen1 = _links.Motion(part1.Body);
+        }
+
+        return Wrench.Dot(part0.Direction, _seen0 - part0.Start) + Wrench.Dot(part1.Direction, _seen1 - part1.Start);
     }
 
     /// <summary>Breaks the joints that passed their limits; true when one did.</summary>
@@ -204,7 +243,7 @@ internal sealed class LinkRows
             {
                 ref Part part = ref _parts[p];
                 if (_links.IsLink(part.Body))
-                    _links.Impulses(_links.ArticulationOf[part.Body])[_links.LinkOf[part.Body]] += part.Direction * _rows.Impulses[i];
+                    _links.Impulses(_links.ArticulationOf[part.Body])[_links.LinkOf[part.Body]] += part.Push * _rows.Impulses[i];
             }
         }
 
@@ -239,7 +278,7 @@ internal sealed class LinkRows
         return ref row;
     }
 
-    private void Add(ref Row row, int body, Vector3d linear, Vector3d angular)
+    private void Add(ref Row row, int body, Vector3d linear, Vector3d angular, double massScale = 1, double inertiaScale = 1)
     {
         if (body < 0 || (!_links.IsLink(body) && !(_mechanism.Bodies.InverseMasses[body] > 0)))
             return;
@@ -253,13 +292,14 @@ internal sealed class LinkRows
         }
 
         _parts[p].Direction += new Wrench(linear, angular);
+        _parts[p].Push += new Wrench(linear * massScale, angular * inertiaScale);
     }
 
     // Response and speed at the start; a row that moves nothing is left out.
     private void End(ref Row row, in ConstraintRow given, double driveScale, double dt, double inverseDt)
     {
         Bodies bodies = _mechanism.Bodies;
-        double response = 0;
+        bool isJoint = row.Joint >= 0;
         double speed = 0;
         double compliance = 0;
         for (int p = row.First; p < row.First + row.Parts; p++)
@@ -268,7 +308,9 @@ internal sealed class LinkRows
             if (_links.IsLink(part.Body))
             {
                 ArticulationSolver solver = _links.Solvers[_links.ArticulationOf[part.Body]];
-                solver.Responses.Apply(_links.LinkOf[part.Body], part.Direction);
+                solver.Responses.Apply(_links.LinkOf[part.Body], part.Push);
+                if (isJoint)
+                    TakeResponse(ref part, solver);
                 part.Start = solver.Tree.Motions[_links.LinkOf[part.Body]];
                 compliance = Math.Max(compliance, solver.JointCompliance(_links.LinkOf[part.Body]));
             }
@@ -277,31 +319,23 @@ internal sealed class LinkRows
                 part.Start = new Twist(bodies.AngularVelocities[part.Body], bodies.LinearVelocities[part.Body]);
                 Quaterniond q = bodies.Poses[part.Body].Rotation;
                 part.Response = new Twist(
-                    q * Vector3d.Scale(bodies.InverseInertias[part.Body], q.InverseRotate(part.Direction.Torque)), part.Direction.Force * bodies.InverseMasses[part.Body]);
+                    q * Vector3d.Scale(bodies.InverseInertias[part.Body], q.InverseRotate(part.Push.Torque)), part.Push.Force * bodies.InverseMasses[part.Body]);
             }
 
             speed += Wrench.Dot(part.Direction, part.Start);
         }
 
-        for (int p = row.First; p < row.First + row.Parts; p++)
-        {
-            ref Part part = ref _parts[p];
-            response += Wrench.Dot(part.Direction, _links.IsLink(part.Body) ? _links.Solvers[_links.ArticulationOf[part.Body]].Responses.Change(_links.LinkOf[part.Body]) : part.Response);
-        }
-
-        bool isInner = row.Parts == 1 && _links.IsLink(_parts[row.First].Body);
-        for (int p = row.First; p < row.First + row.Parts; p++)
-        {
-            if (_links.IsLink(_parts[p].Body))
-                _links.Solvers[_links.ArticulationOf[_parts[p].Body]].Responses.Forget();
-        }
-
+        double response = isJoint ? 0 : CoupledResponse(row);
+        for (int p = row.First; isJoint && p < row.First + row.Parts; p++)
+            response += Wrench.Dot(_parts[p].Direction, _parts[p].Response);
         if (!(response > LeastResponse))
             return;
         response += compliance;
         int i = _count++;
         row.Counts = given.Has(RowFlags.OutputForce);
-        row.IsInner = isInner;
+        row.IsInner = row.Parts == 1 && _links.IsLink(_parts[row.First].Body);
+        row.IsWithin = isJoint && row.Parts == 2 && _links.IsLink(_parts[row.First].Body) && _links.IsLink(_parts[row.First + 1].Body)
+            && _links.ArticulationOf[_parts[row.First].Body] == _links.ArticulationOf[_parts[row.First + 1].Body];
         _rows.Vectors[i] = new RowVectors
         {
             Linear = new Double4(given.Linear0, given.GeometricError),
@@ -310,11 +344,36 @@ internal sealed class LinkRows
         };
         _rows.Angular0[i] = given.Angular0;
         PgsConstants.Set(_rows, i, response, given, driveScale, dt, inverseDt);
-        if (isInner)
+        if (row.IsInner)
         {
             int body = _parts[row.First].Body;
             _worldSides[_links.ArticulationOf[body]].Add(_links.LinkOf[body], i);
         }
+    }
+
+    private void TakeResponse(ref Part part, ArticulationSolver solver)
+    {
+        part.Response = solver.Responses.Change(_links.LinkOf[part.Body]);
+        solver.Responses.Forget();
+    }
+
+    // A coupling's sides act on its row's speed through each other too: PhysX has no couplings.
+    private double CoupledResponse(in Row row)
+    {
+        double response = 0;
+        for (int p = row.First; p < row.First + row.Parts; p++)
+        {
+            ref Part part = ref _parts[p];
+            response += Wrench.Dot(part.Direction, _links.IsLink(part.Body) ? _links.Solvers[_links.ArticulationOf[part.Body]].Responses.Change(_links.LinkOf[part.Body]) : part.Response);
+        }
+
+        for (int p = row.First; p < row.First + row.Parts; p++)
+        {
+            if (_links.IsLink(_parts[p].Body))
+                _links.Solvers[_links.ArticulationOf[_parts[p].Body]].Responses.Forget();
+        }
+
+        return response;
     }
 
     private void PrepareCoupling(CoordinateCoupling coupling, double dt, double inverseDt)
@@ -383,7 +442,7 @@ internal sealed class LinkRows
                 if (by == 0)
                     continue;
                 given = true;
-                Wrench push = part.Direction * by;
+                Wrench push = part.Push * by;
                 change += _solver.Responses.Links[link].Times(push);
                 impulse += push;
             }

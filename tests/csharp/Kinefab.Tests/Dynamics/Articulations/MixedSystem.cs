@@ -18,7 +18,12 @@ internal static class MixedSystem
         int links = tree.Count;
         BodyDefinition[] bodies =
         [
-            .. Enumerable.Range(0, links).Select(i => Body(tree.Poses[i], tree.Links[i].Mass, tree.Links[i].Inertia, scenario) with { IsKinematic = i == 0 && tree.IsFixed }),
+            .. Enumerable.Range(0, links).Select(i => Body(tree.Poses[i], tree.Links[i].Mass, tree.Links[i].Inertia, scenario) with
+            {
+                IsKinematic = i == 0 && tree.IsFixed,
+                LinearVelocity = tree.Motions[i].Linear,
+                AngularVelocity = tree.Motions[i].Angular,
+            }),
             .. scenario.Bodies.Select(b => Body(ReferenceArticulation.PoseOf(b), ReferenceArticulation.Number(b, "mass", 1), ReferenceArticulation.VectorOf(b, "inertia"), scenario)),
         ];
         JointModel[] joints = [.. scenario.Joints.Select(j => Joint(scenario, j, links))];

@@ -404,6 +404,50 @@ public sealed class WorldLinkTests
         }
     }
 
+    /// <summary>A link without joints is a rigid body.</summary>
+    [TestCase(1, 1)]
+    [TestCase(6, 1)]
+    [TestCase(0.3, 5)]
+    public void Step_MassScalesOfAJointToALink_AreThoseOfAJointToARigidbody(double own, double connected)
+    {
+        var inertia = new Vector3d(0.3, 0.3, 0.3);
+        var spring = new JointDrive { PositionSpring = 400, PositionDamper = 3, MaximumForce = 1e6 };
+        double[] toLink = Places(new ArticulationBody { Mass = 3, InertiaTensor = inertia, AngularDamping = 0.05, LinearDamping = 0, UseGravity = false });
+        double[] toBody = Places(new Rigidbody { Mass = 3, InertiaTensor = inertia, AngularDamping = 0.05, LinearDamping = 0, UseGravity = false });
+        Assert.That(toLink, Is.EqualTo(toBody).Within(1e-9));
+
+        double[] Places(Component other)
+        {
+            var joint = new ConfigurableJoint
+            {
+                ConnectedBody = 0,
+                XDrive = spring,
+                TargetPosition = new Vector3d(0.5, 0, 0),
+                AngularXMotion = ConfigurableJointMotion.Locked,
+                MassScale = own,
+                ConnectedMassScale = connected,
+                EnablePreprocessing = false,
+            };
+            var document = new SceneDocument
+            {
+                GameObjects =
+                [
+                    new() { Id = "other", Name = "other", Components = [other] },
+                    new()
+                    {
+                        Id = "own",
+                        Name = "own",
+                        Transform = new Transform { LocalPosition = new Vector3d(1, 0, 0) },
+                        Components = [new Rigidbody { Mass = 2, InertiaTensor = inertia, UseGravity = false }, joint],
+                    },
+                ],
+            };
+            World world = World.Create(LinkScene.Valid(document), SolverKind.Unity);
+            world.Run(0.2);
+            return [world.Body("other").Pose.Position.X, world.Body("own").Pose.Position.X];
+        }
+    }
+
     private static Vector3d Linear(World world) => world.Bodies.Aggregate(Vector3d.Zero, (sum, b) => sum + b.LinearVelocity * b.Settings.Mass);
 
     private static Vector3d Angular(World world)

@@ -75,6 +75,56 @@ def test_every_reader_refuses_what_the_validator_refuses(case, reader, tmp_path)
     assert [(d.code, d.severity.value, d.where) for d in raised.value.diagnostics] == expected
 
 
+def _without(document, section):
+    """The scene once less each field of a section, deeper ones too, with the field's place."""
+    for place, holder in _holders(document[section]):
+        for key in list(holder):
+            value = holder.pop(key)
+            yield f"{place}/{key}", document
+            holder[key] = value
+
+
+def _holders(value, place=""):
+    if isinstance(value, dict):
+        yield place, value
+    for key, inner in value.items() if isinstance(value, dict) else enumerate(value) if isinstance(value, list) else ():
+        yield from _holders(inner, f"{place}/{key}")
+
+
+def test_what_an_analysis_need_not_state_may_be_left_out(schema, tmp_path):
+    """The schema asks for the mobility alone: what another program writes is read, and written again as it is."""
+    document = json.loads((ROOT / "valid/scene/every_section.kinefab").read_text(encoding="utf-8"))
+    path, again = tmp_path / "less.kinefab", tmp_path / "again.kinefab"
+    left_out = 0
+    for place, less in _without(document, "analysis"):
+        if not schema.is_valid(less):
+            continue
+        path.write_text(json.dumps(less), encoding="utf-8")
+        kinefab.export(path, again)
+        written = json.loads(again.read_text(encoding="utf-8"))["analysis"]
+        for key in ("mobility", "firstOrderMobility", "redundant", "closureGap"):
+            if not place.startswith("/closureGap"):
+                assert written.get(key) == less["analysis"].get(key), place
+        left_out += 1
+    assert left_out >= 9
+
+
+def test_a_set_of_texture_coordinates_behind_one_that_is_not_there_keeps_its_number(tmp_path):
+    """Unity reads zeros from the one that is not there."""
+    case = ROOT / "valid/mesh/uv_sets.kinefab"
+    document = json.loads(case.read_text(encoding="utf-8"))
+    meshes = read(case, Report()).written.meshes
+    del document["meshes"][0]["uv2"]
+    path = tmp_path / "gap.kinefab"
+    path.write_text(json.dumps(document), encoding="utf-8")
+    for entry in document["buffers"]:
+        (tmp_path / entry["uri"]).write_bytes((case.parent / entry["uri"]).read_bytes())
+    found = read(path, Report()).written.meshes[0].uvs
+    assert len(found) == len(meshes[0].uvs)
+    for i, (uv, whole) in enumerate(zip(found, meshes[0].uvs)):
+        assert (uv == (0.0 if i == 1 else whole)).all()
+
+
 def test_nothing_is_written_of_a_scene_that_the_validator_refuses(tmp_path):
     with pytest.raises(KinefabError, match="ID_DUPLICATE"):
         kinefab.export(ROOT / "invalid/gameobject/id_twice.kinefab", tmp_path / "again.kinefab")

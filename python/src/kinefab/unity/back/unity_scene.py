@@ -63,15 +63,16 @@ def _mesh(entry: Entry, buffers: Sequence[bytes]) -> Mesh:
         place = entry.get(name)
         return None if place is None else _values(place, buffers, "<f4", width * count).reshape(-1, width)
 
+    # Unity reads zeros from a set that is not there; those behind it keep their numbers.
     uvs = [floats(name, 2) for name in UV_SETS]
-    if any(uvs[i] is None and uvs[i + 1] is not None for i in range(len(uvs) - 1)):
-        raise ValueError("a set of texture coordinates behind one that is not there")
+    while uvs and uvs[-1] is None:
+        uvs.pop()
     return Mesh(
         str(entry["name"]),
         floats("positions", 3),
         indices.reshape(-1, 3),
         floats("normals", 3),
-        tuple(uv for uv in uvs if uv is not None),
+        tuple(np.zeros((count, 2), "<f4") if uv is None else uv for uv in uvs),
         floats("tangents", 4),
         floats("colors", 4),
         submeshes,

@@ -125,6 +125,22 @@ def test_a_set_of_texture_coordinates_behind_one_that_is_not_there_keeps_its_num
         assert (uv == (0.0 if i == 1 else whole)).all()
 
 
+def test_a_mesh_whose_one_submesh_is_empty_is_written_again(tmp_path):
+    case = ROOT / "valid/mesh/uv_sets.kinefab"
+    document = json.loads(case.read_text(encoding="utf-8"))
+    (submesh,) = document["meshes"][0]["submeshes"]
+    submesh["indexCount"] = 0
+    path, again = tmp_path / "empty.kinefab", tmp_path / "again.kinefab"
+    path.write_text(json.dumps(document), encoding="utf-8")
+    for entry in document["buffers"]:
+        (tmp_path / entry["uri"]).write_bytes((case.parent / entry["uri"]).read_bytes())
+    kinefab.export(path, again)
+    (mesh,) = read(again, Report()).written.meshes
+    assert mesh.submeshes == (0,)
+    assert len(mesh.triangles) == 0
+    assert (mesh.vertices == read(case, Report()).written.meshes[0].vertices).all()
+
+
 def test_nothing_is_written_of_a_scene_that_the_validator_refuses(tmp_path):
     with pytest.raises(KinefabError, match="ID_DUPLICATE"):
         kinefab.export(ROOT / "invalid/gameobject/id_twice.kinefab", tmp_path / "again.kinefab")

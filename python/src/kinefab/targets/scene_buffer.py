@@ -26,7 +26,8 @@ class SceneBuffer:
 
     def append(self, values: np.ndarray, dtype: str) -> dict[str, int]:
         """The accessor of ``values``, written little-endian and tightly packed as ``dtype``."""
-        return self.append_bytes(np.ascontiguousarray(values, dtype=np.dtype(dtype).newbyteorder("<")).data.cast("B"))
+        packed = np.ascontiguousarray(values, dtype=np.dtype(dtype).newbyteorder("<"))
+        return self.append_bytes(packed.reshape(-1).view(np.uint8).data)  # of no values too, whose shape has a zero
 
     def append_bytes(self, data: bytes | memoryview) -> dict[str, int]:
         """Where they begin."""

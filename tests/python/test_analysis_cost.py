@@ -4,10 +4,15 @@ from __future__ import annotations
 
 import gc
 import math
+from dataclasses import replace
 
+import kinefab
 import numpy as np
 import pytest
 from kinefab.analysis import analyse
+from kinefab.analysis.assembly.assemble import assemble
+from kinefab.analysis.findings import still
+from kinefab.spatial import Pose
 from linkages import ring
 
 
@@ -63,3 +68,35 @@ def test_the_collector_runs_again_after_an_analysis_that_fails():
     with pytest.raises(AttributeError):
         analyse(None)
     assert gc.isenabled()
+
+
+def test_what_holds_a_singular_mechanism_is_looked_for_a_few_times_only(monkeypatch):
+    """A platform on six legs, each a slide between two universal joints, whose frames miss each other by a CAD program's rounding:
+    nothing moves, and without any of its joints all that is left has to be searched for motions.  The first few are named."""
+    draw = np.random.default_rng(1)
+    source = kinefab.Scene()
+    base, top = source.add_part("base", grounded=True), source.add_part("top", mass=3.0, translation=(0, 1, 0))
+    for i in range(6):
+        turns = np.array([math.tau * i / 6, math.tau * i / 6 + 0.5])
+        foot, head = (np.array([r * math.cos(t), h, r * math.sin(t)]) for r, h, t in zip((1, 0.6), (0, 1), turns))
+        along = (head - foot) / np.linalg.norm(head - foot)
+        across = np.cross(along, [0, 1, 0]) / np.linalg.norm(np.cross(along, [0, 1, 0]))
+        third = np.cross(along, across)
+        low = source.add_part(f"low{i}", mass=1.0, translation=tuple(foot + 0.2 * along))
+        high = source.add_part(f"high{i}", mass=1.0, translation=tuple(head - 0.2 * along))
+        for kind, a, b, point, axis, second in (
+            ("universal", base, low, foot, across, third),
+            ("prismatic", low, high, foot, along, across),
+            ("universal", high, top, head, across, third),
+        ):
+            source.add_joint(kind, a, b, point=tuple(point), axis=tuple(axis), secondary=tuple(second))
+    source.joints[:] = [
+        replace(j, frame_a=Pose(j.frame_a.rotation, j.frame_a.translation + 1e-6 * draw.standard_normal(3))) for j in source.joints
+    ]
+    assembled = []
+    monkeypatch.setattr(still, "assemble", lambda *given: assembled.append(given) or assemble(*given))
+    found = analyse(source)
+    assert found.mobility == 0
+    (told,) = (d for d in found.report.diagnostics if d.code == "NOTHING_MOVES")
+    assert "without any one of universal:1 (universal)" in told.message
+    assert 2 <= len(assembled) < len(source.joints) / 2

@@ -13,6 +13,8 @@ from ..assembly.assemble import Assembly, assemble
 MOST, WORK = 60, 10_000
 """Joints or constraints that are left out one by one, at most, to see which of them holds the rest; and statements that are
 assembled for it in all, at most: it says why, and must not take longer than what it is about."""
+SEARCHES = 1_000_000
+"""Cubes of the unknowns of what is left without one and has to be searched for finite motions, summed: then no more are left out."""
 HOLDING = frozenset({ConstraintKind.LOCK, ConstraintKind.GROUND})
 
 
@@ -36,8 +38,8 @@ def report_still(scene: Scene, assembly: Assembly, mobility: int, report: Report
     all_tried = True
     for fixed in (True, False):
         tried = [s for s in stated if _is_fixed(s) is fixed]
-        all_tried = all_tried and len(tried) <= most
-        left = _left_without(scene, assembly.floating, tried[:most])
+        left, count = _left_without(scene, assembly.floating, tried[:most])
+        all_tried = all_tried and len(tried) == count
         if left:
             break
     reason = "no single one of them holds it, so more than one is too many"
@@ -77,15 +79,20 @@ def _without(scene: Scene, statement: Joint | Constraint) -> Scene:
 
 def _left_without(
     scene: Scene, floating: int, statements: Sequence[Joint | Constraint]
-) -> dict[int, list[Joint | Constraint]]:
+) -> tuple[dict[int, list[Joint | Constraint]], int]:
     """The statements by how many freedoms are left without one; not those that leave none, nor a part that nothing holds.
+    And how many were tried.
 
     floating: the scene's own islands that nothing joins to ground.
     """
     found: dict[int, list[Joint | Constraint]] = {}
-    for statement in statements:
+    searched = 0
+    for tried, statement in enumerate(statements):
+        if searched > SEARCHES:
+            return found, tried
         assembly = assemble(_without(scene, statement), Report())
         count = sum(finite.mobility for finite in assembly.finite)
         if count and assembly.floating == floating:
             found.setdefault(count, []).append(statement)
-    return found
+        searched += sum(len(finite.tangent) ** 3 for finite in assembly.finite if finite.singular)
+    return found, len(statements)

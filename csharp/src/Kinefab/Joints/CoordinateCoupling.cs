@@ -19,7 +19,7 @@ internal sealed class CoordinateCoupling
     public readonly double[] Factors;
 
     /// <summary>Unit of the coordinate that follows.</summary>
-    public readonly double Offset;
+    public double Offset;
 
     /// <summary>Coordinates at the last finished step; angles are unwrapped against them.</summary>
     public readonly double[] Last;
@@ -73,6 +73,18 @@ internal sealed class CoordinateCoupling
             }
 
             return true;
+        }
+    }
+
+    /// <summary>Counts a coordinate of a joint from elsewhere: what it was by so much is it by so much less.</summary>
+    public void Recount(JointModel joint, CoordinateAxis axis, double less)
+    {
+        for (int i = 0; i < Coordinates.Length; i++)
+        {
+            if (Coordinates[i].Joint == joint && Coordinates[i].Axis == axis)
+            {
+                Offset -= Factors[i] * Coordinates[i].Sign * less;
+            }
         }
     }
 

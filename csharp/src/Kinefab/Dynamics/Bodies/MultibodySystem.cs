@@ -91,6 +91,7 @@ internal sealed class MultibodySystem
         foreach (CoordinateCoupling coupling in Couplings)
         {
             tape.Array(coupling.Last);
+            tape.Value(ref coupling.Offset);
         }
 
         tape.Array(reactions);

@@ -74,7 +74,7 @@ public sealed class WorldBody
 
     /// <summary>
     /// Pose of the GameObject in the world. Setting it teleports the body and keeps its velocities; the rotation is normalised. With the root of an
-    /// articulation all its links go.
+    /// articulation all its links go, and keep their joints' speeds.
     /// </summary>
     /// <exception cref="ArgumentOutOfRangeException">A component is no number, or the rotation is zero.</exception>
     /// <exception cref="InvalidOperationException">It is set of a link that is no root.</exception>
@@ -88,17 +88,23 @@ public sealed class WorldBody
             Pose way = pose * _bodies.Poses[_index].Inverse();
             _bodies.Poses[_index] = pose;
             _bodies.KinematicTargets[_index] = pose;
-            foreach (int link in LinksBelow)
-                _bodies.Poses[link] = way * _bodies.Poses[link];
+            if (LinksBelow.Length > 0)
+                TakeAlong(way);
         }
     }
 
     /// <summary>Where a kinematic body is after the next step (Rigidbody.MovePosition and MoveRotation); the rotation is normalised.</summary>
     /// <exception cref="ArgumentOutOfRangeException">A component is no number, or the rotation is zero.</exception>
+    /// <exception cref="InvalidOperationException">It is set of a link, which Unity does not move so.</exception>
     public Pose KinematicTarget
     {
         get => _bodies.KinematicTargets[_index] * _localInverse;
-        set => _bodies.KinematicTargets[_index] = Checked(value) * _local;
+        set
+        {
+            if (IsLink)
+                throw new InvalidOperationException("A link has no kinematic target: set the pose of its root.");
+            _bodies.KinematicTargets[_index] = Checked(value) * _local;
+        }
     }
 
     /// <summary>Centre of mass in the world, metres.</summary>
@@ -166,6 +172,24 @@ public sealed class WorldBody
         FormattableString.Invariant($"{Id}{(IsKinematic ? ", kinematic" : FormattableString.Invariant($", {_settings.Mass} kg"))} at {Pose}, {LinearVelocity} m/s, {AngularVelocity} rad/s");
 
     internal void Exchange(StateTape tape) => tape.Value(ref _settings);
+
+    // A root's links keep their motion as seen from it: their joints' speeds.
+    private void TakeAlong(in Pose way)
+    {
+        Vector3d v = _bodies.LinearVelocities[_index], w = _bodies.AngularVelocities[_index];
+        Vector3d root = _bodies.Poses[_index].Position;
+        Vector3d before = (way.Inverse() * _bodies.Poses[_index]).Position;
+        foreach (int link in LinksBelow)
+        {
+            Vector3d own = _bodies.LinearVelocities[link] - v - Vector3d.Cross(w, _bodies.Poses[link].Position - before);
+            Vector3d turning = _bodies.AngularVelocities[link] - w;
+            _bodies.Poses[link] = way * _bodies.Poses[link];
+            _bodies.LinearVelocities[link] = v + Vector3d.Cross(w, _bodies.Poses[link].Position - root) + way.Rotation * own;
+            _bodies.AngularVelocities[link] = w + way.Rotation * turning;
+        }
+
+        _system.HasChangedSpeeds = true;
+    }
 
     private void ThrowIfFollowing(string what, string ofJoint)
     {

@@ -404,6 +404,91 @@ public sealed class WorldLinkTests
         }
     }
 
+    /// <summary>The middle of the range, from which a ConfigurableJoint counts, is another.</summary>
+    [TestCase(SolverKind.Unity)]
+    [TestCase(SolverKind.Exact)]
+    public void Settings_OtherLimitsOfASlide_HoldWhereTheyAre(SolverKind solver)
+    {
+        ArticulationBody slide = LinkScene.Link(Prismatic, new ArticulationDrive { Stiffness = 200, Damping = 40, Target = 5, LowerLimit = 0, UpperLimit = 1 }) with
+        {
+            LinearLock = ConfigurableJointMotion.Limited,
+            UseGravity = false,
+        };
+        World world = LinkScene.World(solver, slide);
+        var joint = (WorldLinkJoint)world.Joints[0];
+        world.Run(3);
+        Assert.That(world["L1"], Is.EqualTo(1).Within(1e-3));
+        WorldSnapshot snapshot = world.Snapshot();
+        joint.Settings = joint.Settings with { XDrive = joint.Settings.XDrive with { UpperLimit = 0.4 } };
+        Assert.That(world["L1"], Is.EqualTo(1).Within(1e-3), "counted as before");
+        world.Run(3);
+        Assert.That(world["L1"], Is.EqualTo(0.4).Within(1e-3));
+        joint.Settings = joint.Settings with { XDrive = joint.Settings.XDrive with { LowerLimit = -0.3, Target = -5 } };
+        world.Run(3);
+        Assert.That(world["L1"], Is.EqualTo(-0.3).Within(1e-3));
+        joint.DriveTo(Coordinate.X, 0.1);
+        world.Run(3);
+        Assert.That(world["L1"], Is.EqualTo(0.1).Within(1e-2), "driven");
+        world.Restore(snapshot);
+        world.Run(1);
+        Assert.That(world["L1"], Is.EqualTo(1).Within(1e-3), "restored");
+    }
+
+    [TestCase(SolverKind.Unity)]
+    [TestCase(SolverKind.Exact)]
+    public void Settings_OtherLimitsOfASlideThatIsCoupled_KeepTheRatio(SolverKind solver)
+    {
+        ArticulationBody limited = LinkScene.Link(Prismatic, new ArticulationDrive { Stiffness = 50, Damping = 20, Target = 0.2, LowerLimit = -1, UpperLimit = 0.5 }) with
+        {
+            LinearLock = ConfigurableJointMotion.Limited,
+            UseGravity = false,
+        };
+        ArticulationBody free = LinkScene.Link(Prismatic) with { UseGravity = false };
+        SceneDocument document = LinkScene.Document(LinkScene.Base, [limited, free]) with
+        {
+            Couplings = [new Coupling { Kind = CouplingKind.Linear, A = Along(1), B = Along(2), Ratio = 2 }],
+        };
+        World world = World.Create(LinkScene.Valid(document), solver);
+        world.Run(0.5);
+        var joint = (WorldLinkJoint)world.Joints[0];
+        joint.Settings = joint.Settings with { XDrive = joint.Settings.XDrive with { LowerLimit = -0.1, UpperLimit = 0.3 } };
+        world.Run(3);
+        using (Assert.EnterMultipleScope())
+        {
+            Assert.That(world["L1"], Is.EqualTo(0.2).Within(0.02));
+            Assert.That(world["L2"], Is.EqualTo(2 * world["L1"]).Within(1e-4));
+        }
+
+        static JointCoordinate Along(int link) => new() { GameObject = link, Component = 0, Coordinate = Coordinate.X };
+    }
+
+    [TestCase(SolverKind.Unity)]
+    [TestCase(SolverKind.Exact)]
+    public void Pose_OfTheRootThatTurns_KeepsTheJointsSpeeds(SolverKind solver)
+    {
+        ArticulationBody link = LinkScene.Link(Revolute) with { UseGravity = false };
+        World world = LinkScene.World(solver, link);
+        var joint = (WorldLinkJoint)world.Joints[0];
+        joint.SetSpeed(Coordinate.AngularX, 90);
+        world.Step(0.02);
+        world.Bodies[0].Pose = new Pose(new Vector3d(1, 2, 3), Quaterniond.AxisAngle(Vector3d.UnitX, Math.PI / 2));
+        Assert.That(joint.Speed(Coordinate.AngularX), Is.EqualTo(90).Within(1e-6));
+        world.Run(1, step: 0.002);
+        using (Assert.EnterMultipleScope())
+        {
+            Assert.That(joint.Speed(Coordinate.AngularX), Is.EqualTo(90).Within(1e-3));
+            Assert.That(world["L1"], Is.EqualTo(91.8).Within(2e-3));
+        }
+    }
+
+    [TestCase(SolverKind.Unity)]
+    [TestCase(SolverKind.Exact)]
+    public void KinematicTarget_OfALink_IsRefused(SolverKind solver)
+    {
+        World world = LinkScene.World(solver, LinkScene.Link(Revolute));
+        Assert.That(() => world.Bodies[0].KinematicTarget = Pose.Identity, Throws.InvalidOperationException.With.Message.Contains("root"));
+    }
+
     /// <summary>A link without joints is a rigid body.</summary>
     [TestCase(1, 1)]
     [TestCase(6, 1)]

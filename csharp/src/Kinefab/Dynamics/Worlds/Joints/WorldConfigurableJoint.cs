@@ -145,6 +145,17 @@ public sealed class WorldConfigurableJoint : WorldJoint
         Solved.RestartTwist(_sign * _unwrapped[FirstAngle]);
     }
 
+    /// <summary>Puts frame 0 so far on along its X; the coordinate stays what it is.</summary>
+    internal void MoveFrame(double way)
+    {
+        Solved.Frame0 *= new Pose(new Vector3d(way, 0, 0), Quaterniond.Identity);
+        _start[0] -= _sign * way;
+        foreach (Kinefab.Joints.CoordinateCoupling coupling in MultibodySystem.Couplings)
+        {
+            coupling.Recount(Solved, Kinefab.Joints.CoordinateAxis.X, way);
+        }
+    }
+
     internal override void NoteSpeeds()
     {
         for (int i = FirstAngle; i < Axes; i++)
@@ -204,6 +215,7 @@ public sealed class WorldConfigurableJoint : WorldJoint
     internal override void Exchange(StateTape tape)
     {
         tape.Value(ref _settings);
+        tape.Array(_start);
         tape.Array(_unwrapped);
         tape.Array(_goals);
         tape.Array(_turningGoals);

@@ -48,6 +48,9 @@ public sealed class WorldLinkJoint : WorldJoint
             }
 
             SettingsCheck.ThrowIfWrong(value);
+
+            // A limited slide of a ConfigurableJoint goes as far to one side as to the other.
+            _joint.MoveFrame(LinkJoint.Middle(value) - LinkJoint.Middle(_settings));
             _settings = value;
             _joint.Settings = LinkJoint.Of(value, _joint.Settings.ConnectedBody!.Value);
             ArticulationModel.Apply(value, Link);

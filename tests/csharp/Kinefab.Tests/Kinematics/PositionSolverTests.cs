@@ -4,6 +4,7 @@ using System.Linq;
 using Kinefab.Document;
 using Kinefab.Kinematics;
 using Kinefab.Numerics;
+using Kinefab.Tests.Dynamics;
 using NUnit.Framework;
 
 namespace Kinefab.Tests.Kinematics;
@@ -63,15 +64,17 @@ public class PositionSolverTests
         }
 
         MechanismState copy = state.Clone();
-        long before = GC.GetAllocatedBytesForCurrentThread();
-        for (int i = 0; i < 50; i++)
-        {
-            solver.Drive(state, angle, i % 7);
-            solver.Drag(state, link, point, tip + new Vector3d(0.01 * (i % 5), 0.3, 0));
-            copy.CopyFrom(state);
-        }
+        Assert.That(AllocatedBytes.LeastOf(Run), Is.Zero);
 
-        Assert.That(GC.GetAllocatedBytesForCurrentThread() - before, Is.Zero);
+        void Run()
+        {
+            for (int i = 0; i < 50; i++)
+            {
+                solver.Drive(state, angle, i % 7);
+                solver.Drag(state, link, point, tip + new Vector3d(0.01 * (i % 5), 0.3, 0));
+                copy.CopyFrom(state);
+            }
+        }
     }
 
     [TestCase("M09", "shaft", "sliderD")]
@@ -82,9 +85,7 @@ public class PositionSolverTests
     {
         var exported = new ExportedMechanism(id);
         Run(10);
-        long before = GC.GetAllocatedBytesForCurrentThread();
-        Run(50);
-        Assert.That(GC.GetAllocatedBytesForCurrentThread() - before, Is.Zero);
+        Assert.That(AllocatedBytes.LeastOf(() => Run(50)), Is.Zero);
 
         void Run(int rounds)
         {

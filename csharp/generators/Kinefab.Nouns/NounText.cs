@@ -5,7 +5,7 @@ using Microsoft.CodeAnalysis;
 
 namespace Kinefab.Nouns;
 
-/// <summary>The other half of a noun: its names, how it is read, how it is written.</summary>
+/// <summary>The other half of a noun: its names, how it is read, how it is written, how it is searched for nulls.</summary>
 internal static class NounText
 {
     internal static string Of(INamedTypeSymbol noun)
@@ -56,6 +56,11 @@ internal static class NounText
             {{(isTyped ? $"        json.Name(\"type\"u8);\n        json.Value(\"{noun.Name}\");\n" : "")}}{{Writes(noun, fields)}}
                     json.EndObject();
                 }
+
+                internal override void Search(NullSearch nulls)
+                {
+            {{Searches(fields)}}
+                }
             }
 
             """;
@@ -79,6 +84,9 @@ internal static class NounText
 
         return cases.ToString().TrimEnd('\n');
     }
+
+    private static string Searches(IReadOnlyList<Field> fields) =>
+        string.Join("\n", fields.Select(field => ValueText.Search(field)).Where(search => search.Length > 0).Select(search => $"        {search}"));
 
     private static string Writes(INamedTypeSymbol noun, IReadOnlyList<Field> fields)
     {

@@ -76,6 +76,22 @@ internal static class ValueText
         };
     }
 
+    /// <summary>A statement that looks for nulls in a field; empty: there can be none.</summary>
+    internal static string Search(Field field)
+    {
+        bool mayMiss = field.Type.NullableAnnotation == NullableAnnotation.Annotated;
+        const string into = "static (item, nulls) => item.Search(nulls)";
+        if (Item(field.Type) is { IsRecord: true, IsValueType: false })
+            return $"nulls.Objects(\"{field.Name}\", {field.Property}, {into});";
+        if (Item(field.Type) is ITypeSymbol item)
+            return $"nulls.{(item.SpecialType == SpecialType.System_String ? "Texts" : "Array")}(\"{field.Name}\", {field.Property});";
+        if (IsMap(field.Type))
+            return $"nulls.Map(\"{field.Name}\", {field.Property});";
+        if (field.Type.SpecialType == SpecialType.System_String)
+            return mayMiss ? "" : $"nulls.Text(\"{field.Name}\", {field.Property});";
+        return field.Type is { IsRecord: true, IsValueType: false } ? $"nulls.Object(\"{field.Name}\", {field.Property}, mayMiss: {(mayMiss ? "true" : "false")}, {into});" : "";
+    }
+
     /// <summary>Whether a field has something to say.</summary>
     internal static string Says(Field field, string usual)
     {

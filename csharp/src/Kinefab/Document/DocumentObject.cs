@@ -1,6 +1,7 @@
 using System.Diagnostics;
 using System;
 using Kinefab.Json;
+using Kinefab.Reading;
 
 namespace Kinefab.Document;
 
@@ -20,6 +21,9 @@ public abstract record DocumentObject
 
     /// <summary>Writes it as a JSON object, less the fields at their defaults.</summary>
     internal abstract void Write(JsonWriter json);
+
+    /// <summary>Looks for nulls where none belong.</summary>
+    internal abstract void Search(NullSearch nulls);
 
     /// <summary>What it is, in one line with units.</summary>
     public sealed override string ToString() => Describe();

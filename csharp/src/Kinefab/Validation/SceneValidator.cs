@@ -24,6 +24,9 @@ public static class SceneValidator
         if (document is null)
             throw new ArgumentNullException(nameof(document));
         var findings = new Findings((limits ?? SceneLimits.Default).MaxFindings);
+        document.FindNulls((pointer, expected) => findings.Add(pointer, DiagnosticCodes.TypeMismatch, ("expected", expected), ("found", "null")));
+        if (findings.Errors > 0)
+            return new SceneValidation(null, FindingPlaces.Resolve(findings, default, hasText: false));
         Descriptions(document, findings);
         HierarchyPlaces places = GameObjects(document, findings, cancellation);
         Lists(document, places, findings);

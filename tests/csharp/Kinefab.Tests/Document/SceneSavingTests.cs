@@ -50,6 +50,18 @@ public class SceneSavingTests
         Assert.That(Bytes(again.Document!), Is.EqualTo(Bytes(document)));
     }
 
+    [TestCaseSource(typeof(SceneWithNull), nameof(SceneWithNull.All))]
+    public void Save_WithANullInIt_SaysWhereAndWritesNothing(string place, string expected, SceneDocument document)
+    {
+        using var folder = new Folder();
+        string path = folder.Of("scene.kinefab");
+        string fault = $"{place}: there is null where {expected} belongs.";
+        Assert.That(() => SceneFile.Save(document, path), Throws.ArgumentException.With.Message.StartsWith(fault));
+        Assert.That(() => SceneFile.Save(document with { Container = SceneContainer.Binary }, path), Throws.ArgumentException.With.Message.StartsWith(fault));
+        Assert.That(() => Bytes(document), Throws.ArgumentException.With.Message.StartsWith(fault));
+        Assert.That(Directory.GetFileSystemEntries(folder.Path), Is.Empty);
+    }
+
     [TestCaseSource(nameof(Exported))]
     public void Save_AsOneFile_IsReadAsTheSame(string scene)
     {

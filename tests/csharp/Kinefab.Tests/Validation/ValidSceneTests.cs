@@ -5,6 +5,7 @@ using Kinefab.Diagnostics;
 using Kinefab.Document;
 using Kinefab.Numerics;
 using Kinefab.Tests.Conformance;
+using Kinefab.Tests.Document;
 using Kinefab.Validation;
 using NUnit.Framework;
 
@@ -27,6 +28,15 @@ public class ValidSceneTests
             Assert.That((child.Pose.Position - new Vector3d(2, 2, 3)).Length, Is.LessThan(1e-15));
             Assert.That(child.Scale, Is.EqualTo(new Vector3d(2, 6, 2)));
         }
+    }
+
+    [TestCaseSource(typeof(SceneWithNull), nameof(SceneWithNull.All))]
+    public void Validate_DocumentWithANull_SaysWhere(string place, string expected, SceneDocument document)
+    {
+        SceneValidation validation = SceneValidator.Validate(document);
+        Assert.That(validation.Scene, Is.Null);
+        Assert.That(validation.Report.Diagnostics.Select(found => (found.Code, found.Pointer)), Is.EqualTo(new[] { (DiagnosticCodes.TypeMismatch, place) }));
+        Assert.That(validation.Report.Diagnostics[0].Message, Is.EqualTo($"There is null where {expected} belongs."));
     }
 
     [TestCase(true)]

@@ -15,7 +15,7 @@ public static partial class SceneFile
     /// </summary>
     /// <param name="document">What is written is not validated; fields at their defaults are left out.</param>
     /// <param name="path">In a folder that exists.</param>
-    /// <exception cref="ArgumentException">A number is not finite, an <c>ExtrasJson</c> no object, a string no Unicode, or a binary file would have more than 4 GiB; nothing was written.</exception>
+    /// <exception cref="ArgumentException">Something is null where nothing may be (the message says where), a number is not finite, an <c>ExtrasJson</c> no object, a string no Unicode, or a binary file would have more than 4 GiB; nothing was written.</exception>
     /// <exception cref="IOException">The file cannot be written; the old one stands as it was.</exception>
     /// <exception cref="UnauthorizedAccessException">As above.</exception>
     public static void Save(SceneDocument document, string path)
@@ -24,6 +24,7 @@ public static partial class SceneFile
             throw new ArgumentNullException(nameof(document));
         if (path is null)
             throw new ArgumentNullException(nameof(path));
+        DemandNoNulls(document);
         string folder = Path.GetDirectoryName(Path.GetFullPath(path))!;
         string name = Path.GetFileName(path);
         document = document with { Buffers = SavedBuffers.Named(document.Buffers, name) };
@@ -36,7 +37,7 @@ public static partial class SceneFile
     /// <summary>Writes a scene, as text or binary as <see cref="SceneDocument.Container"/> says; buffers that are not in it stay where they are, under the names that it states.</summary>
     /// <param name="document">What is written is not validated; fields at their defaults are left out.</param>
     /// <param name="stream">It stays open.</param>
-    /// <exception cref="ArgumentException">A number is not finite, an <c>ExtrasJson</c> no object, a string no Unicode, a buffer of a text without name, or a binary file would have more than 4 GiB; nothing was written.</exception>
+    /// <exception cref="ArgumentException">Something is null where nothing may be (the message says where), a number is not finite, an <c>ExtrasJson</c> no object, a string no Unicode, a buffer of a text without name, or a binary file would have more than 4 GiB; nothing was written.</exception>
     /// <exception cref="IOException">The stream cannot be written.</exception>
     public static void Save(SceneDocument document, Stream stream)
     {
@@ -44,10 +45,14 @@ public static partial class SceneFile
             throw new ArgumentNullException(nameof(document));
         if (stream is null)
             throw new ArgumentNullException(nameof(stream));
+        DemandNoNulls(document);
         if (document.Container == SceneContainer.Text && document.Buffers.Any(buffer => buffer.Uri is null))
             throw new ArgumentException("A buffer has no uri: save the scene to a path, or as SceneContainer.Binary.", nameof(document));
         Of(document).Write(stream);
     }
+
+    private static void DemandNoNulls(SceneDocument document) => document.FindNulls(
+        (pointer, expected) => throw new ArgumentException($"{pointer}: there is null where {expected} belongs.", nameof(document)));
 
     private static Content Of(SceneDocument document)
     {

@@ -2,6 +2,7 @@ using System;
 using System.Collections.Generic;
 using System.Linq;
 using Kinefab.Json;
+using Kinefab.Reading;
 
 namespace Kinefab.Document;
 
@@ -101,6 +102,13 @@ public sealed partial record SceneDocument : DocumentObject
     {
         get => text is not null && ReferenceEquals(text.Of, this) ? text.Bytes : default;
         set => text = new SourceText(this, value);
+    }
+
+    /// <summary>Tells of each null where none belongs its pointer and what does; in a scene as it was read there is none.</summary>
+    internal void FindNulls(Action<string, string> report)
+    {
+        if (Text.IsEmpty)
+            Search(new NullSearch(report));
     }
 
     private protected override string Describe() =>

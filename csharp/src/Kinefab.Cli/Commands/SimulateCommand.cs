@@ -24,7 +24,7 @@ internal static class SimulateCommand
         Option<string?> output = TypedOptions.Trajectory();
         var drives = new Option<string[]>("--drive")
         {
-            Description = $"JOINT[.COORDINATE]=VALUE[/s]: drive a joint to a value or, with /s, at a speed; degrees or metres, at most {DriveRange.Degrees} or {DriveRange.Metres} (a second). May be repeated, once for each coordinate. JOINT is what the source calls it, or the id or name of its GameObject, with [COMPONENT] behind it where one object carries several joints.",
+            Description = $"JOINT[.COORDINATE]=VALUE[/s]: drive a joint to a value or, with /s, at a speed; degrees or metres, at most {MechanismCoordinate.FarthestDegrees} or {MechanismCoordinate.FarthestMetres} (a second). May be repeated, once for each coordinate. JOINT is what the source calls it, or the id or name of its GameObject, with [COMPONENT] behind it where one object carries several joints.",
         };
         var record = new Option<string?>("--record") { Description = "Write down the run, NAME.kfrec: what went in, and a hash of the state after its steps." };
         Option<int> every = TypedOptions.Count("--every", "Steps between two hashes of --record.", most: TypedOptions.MostSteps, standard: 1);

@@ -16,7 +16,7 @@ internal static class SweepCommand
         var scenes = new SceneArguments();
         var joint = new Option<string>("--joint") { Description = "ID[.COORDINATE]: what the source calls the joint, or id or name of the object with it, with [COMPONENT] behind it where one object carries several.", Required = true };
         Option<double?> from = TypedOptions.Finite("--from", "First value, degrees or metres; default: the low end of the range, or 0 for a whole turn.");
-        Option<double?> to = TypedOptions.Finite("--to", $"Last value; default: the high end of the range. Values up to {DriveRange.Degrees} deg or {DriveRange.Metres} m either way.");
+        Option<double?> to = TypedOptions.Finite("--to", $"Last value; default: the high end of the range. Values up to {MechanismCoordinate.FarthestDegrees} deg or {MechanismCoordinate.FarthestMetres} m either way.");
         Option<int> steps = TypedOptions.Count("--steps", "Number of steps.", most: TypedOptions.MostSteps, standard: 72);
         Option<string?> output = TypedOptions.Trajectory();
         var animation = new Option<bool>("--into-animation") { Description = "Write the sweep into the scene as an animation clip." };
@@ -49,7 +49,7 @@ internal static class SweepCommand
                 return SceneOutcome.Refused(loaded.Report, $"--joint {Joint}: {fault}");
 
             MechanismCoordinate driven = mechanism.Coordinates[coordinate];
-            if (DriveRange.Fault(driven, Math.Max(Math.Abs(From ?? 0), Math.Abs(To ?? 0)), driven.Unit) is string range)
+            if (SweepText.RangeFault(driven, Math.Max(Math.Abs(From ?? 0), Math.Abs(To ?? 0)), driven.Unit) is string range)
                 return SceneOutcome.Refused(loaded.Report, $"--from and --to {range} for {Joint}.");
 
             if (TrajectorySize.Fault(Steps, mechanism.Bodies.Count, mechanism.Coordinates.Count) is string excess)

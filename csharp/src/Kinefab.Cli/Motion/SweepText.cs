@@ -53,5 +53,9 @@ internal static class SweepText
     private static void Line(TextWriter target, string text) => target.WriteLine(Printable.Text(text));
 
     // As it is written, without the sign that the format gives a negative number that comes to 0.
+    /// <summary>Null when a coordinate may be asked to go that far, at once or in a second, else between which the value must lie.</summary>
+    internal static string? RangeFault(MechanismCoordinate coordinate, double value, string unit) =>
+        Math.Abs(value) <= coordinate.Farthest ? null : $"must lie between -{Number(coordinate.Farthest)} and {Number(coordinate.Farthest)} {unit}";
+
     internal static string Number(double value) => (Math.Round(value, 6) + 0.0).ToString("0.######", CultureInfo.InvariantCulture);
 }

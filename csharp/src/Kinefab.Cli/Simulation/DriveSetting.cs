@@ -48,7 +48,7 @@ internal sealed record DriveSetting(string Text, WorldJoint Joint, MechanismCoor
             return Wrong($"the joint does not move along {found.Coordinate.ToJson()}.", out fault);
         WorldJoint joint = world.Joints.Single(j => j.GameObject == found.GameObject && j.Component == found.Component);
         var drive = new DriveSetting(text, joint, found, number, isSpeed);
-        if (DriveRange.Fault(found, number, drive.Unit) is string range)
+        if (SweepText.RangeFault(found, number, drive.Unit) is string range)
             return Wrong($"it {range}.", out fault);
         fault = "";
         return drive;

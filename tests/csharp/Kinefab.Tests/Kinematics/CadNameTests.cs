@@ -137,6 +137,23 @@ public sealed class CadNameTests
         Assert.That(() => Kinefab.Advice.StabilityAdvice.Of(Mechanism.Scene, null, cancellation.Token), Throws.InstanceOf<OperationCanceledException>());
     }
 
+    [TestCase(0, 1e308)]
+    [TestCase(-360001, 0)]
+    [TestCase(0, double.NaN)]
+    public void Sweep_FartherThanAnyoneWaitsFor_IsRefused(double from, double to) =>
+        Assert.That(() => Mechanism.Sweep("Shaft", from, to), Throws.InstanceOf<ArgumentOutOfRangeException>().With.Property("ParamName").EqualTo(to == 0 ? "from" : "to"));
+
+    // What turns on and on comes beyond any bound of its value.
+    [Test]
+    public void Drive_FromFarAway_GoesOn()
+    {
+        var solver = new PositionSolver(Mechanism);
+        MechanismState state = Mechanism.NewState();
+        Assert.That(solver.Drive(state, "Shaft", 360000).Converged);
+        Assert.That(solver.Drive(state, "Shaft", 360010).Converged);
+        Assert.That(state["Shaft"], Is.EqualTo(360010).Within(1e-9));
+    }
+
     [Test]
     public void Drive_WrongCalls_SayWhatThereIs()
     {
@@ -145,6 +162,8 @@ public sealed class CadNameTests
         Assert.That(() => solver.Drive(state, 99, 1), Throws.InstanceOf<ArgumentOutOfRangeException>().With.Message.Contains("0 Lever/Crank:1.angle"));
         Assert.That(() => solver.Drive(state, -1, 1), Throws.InstanceOf<ArgumentOutOfRangeException>());
         Assert.That(() => solver.Drive(state, "Shaft", double.NaN), Throws.InstanceOf<ArgumentException>().With.Message.Contains("Lever/Crank:1.angle"));
+        Assert.That(() => solver.Drive(state, "Shaft", 3.6e7), Throws.InstanceOf<ArgumentOutOfRangeException>().With.Message.Contains("Lever/Crank:1.angle goes at most 360000 deg at once, and stands at 0."));
+        Assert.That(() => solver.Drive(state, new CoordinateTarget[] { new(0, -360001) }), Throws.InstanceOf<ArgumentOutOfRangeException>());
         Assert.That(() => state.Coordinate(99), Throws.InstanceOf<ArgumentOutOfRangeException>());
         Assert.That(() => state.Pose(9999), Throws.InstanceOf<ArgumentOutOfRangeException>());
         Assert.That(() => state.Pose(-1), Throws.InstanceOf<ArgumentOutOfRangeException>());

@@ -52,7 +52,8 @@ public sealed class PositionSolver
     /// <param name="targets">Each coordinate at most once.</param>
     /// <param name="cancellation">Ends the drive early; the state then stands somewhere on the way.</param>
     /// <returns>How far it came and what stopped it: limits and dead points are results, not errors.</returns>
-    /// <exception cref="ArgumentException">The state is another mechanism's, or a target names no coordinate, no finite number, or a coordinate twice; the message says which coordinates there are.</exception>
+    /// <exception cref="ArgumentException">The state is another mechanism's, or a target names no coordinate, or a coordinate twice; the message says which coordinates there are.</exception>
+    /// <exception cref="ArgumentOutOfRangeException">A target is no finite number, or farther than <see cref="MechanismCoordinate.Farthest"/> from where the state stands.</exception>
     /// <exception cref="OperationCanceledException">It was cancelled.</exception>
     public DriveResult Drive(MechanismState state, ReadOnlySpan<CoordinateTarget> targets, CancellationToken cancellation = default)
     {
@@ -60,8 +61,7 @@ public sealed class PositionSolver
         for (int i = 0; i < targets.Length; i++)
         {
             Check(targets[i].Coordinate, nameof(targets));
-            if (!Finite.Is(targets[i].Value))
-                throw new ArgumentOutOfRangeException(nameof(targets), $"The target of {Mechanism.Coordinates[targets[i].Coordinate].Name} is not a finite number.");
+            Mechanism.Coordinates[targets[i].Coordinate].Demand(targets[i].Value, state.Coordinate(targets[i].Coordinate), nameof(targets));
             for (int k = 0; k < i; k++)
             {
                 if (targets[k].Coordinate == targets[i].Coordinate)
@@ -78,12 +78,15 @@ public sealed class PositionSolver
     /// <param name="value">Degrees or metres.</param>
     /// <param name="cancellation">Ends the drive early; the state then stands somewhere on the way.</param>
     /// <returns>How far it came and what stopped it: limits and dead points are results, not errors.</returns>
-    /// <exception cref="ArgumentException">The state is another mechanism's, there is no such coordinate, or the value is no finite number.</exception>
+    /// <exception cref="ArgumentException">The state is another mechanism's, or there is no such coordinate.</exception>
+    /// <exception cref="ArgumentOutOfRangeException">The value is no finite number, or farther than <see cref="MechanismCoordinate.Farthest"/> from where the state stands.</exception>
     /// <exception cref="OperationCanceledException">It was cancelled.</exception>
     public DriveResult Drive(MechanismState state, int coordinate, double value, CancellationToken cancellation = default)
     {
-        ReadOnlySpan<CoordinateTarget> targets = stackalloc CoordinateTarget[] { new CoordinateTarget(coordinate, value) };
-        return Drive(state, targets, cancellation);
+        Begin(state, cancellation);
+        Check(coordinate, nameof(coordinate));
+        Mechanism.Coordinates[coordinate].Demand(value, state.Coordinate(coordinate), nameof(value));
+        return Follow(state, coordinate, value, cancellation);
     }
 
     /// <summary>Moves one coordinate to a value, degrees or metres from the exported pose.</summary>
@@ -92,7 +95,8 @@ public sealed class PositionSolver
     /// <param name="value">Degrees or metres.</param>
     /// <param name="cancellation">Ends the drive early; the state then stands somewhere on the way.</param>
     /// <returns>How far it came and what stopped it: limits and dead points are results, not errors.</returns>
-    /// <exception cref="ArgumentException">None answers to the name, or several do: the message says which there are; or the value is no finite number.</exception>
+    /// <exception cref="ArgumentException">None answers to the name, or several do: the message says which there are.</exception>
+    /// <exception cref="ArgumentOutOfRangeException">The value is no finite number, or farther than <see cref="MechanismCoordinate.Farthest"/> from where the state stands.</exception>
     /// <exception cref="OperationCanceledException">It was cancelled.</exception>
     /// <example><code>
     /// var solver = new PositionSolver(mechanism);
@@ -185,6 +189,13 @@ public sealed class PositionSolver
         state.ForgetTrail();
         DriveStatus status = closed ? DriveStatus.Reached : DriveStatus.NotClosed;
         return new DriveResult(status, closed ? 1 : 0, _newton.Iterations, _newton.ErrorMetres, _newton.ErrorDegrees, 0, null);
+    }
+
+    /// <summary>As <see cref="Drive(MechanismState, int, double, CancellationToken)"/>, of a value that is known to be within reach of the state's.</summary>
+    internal DriveResult Follow(MechanismState state, int coordinate, double value, CancellationToken cancellation)
+    {
+        Begin(state, cancellation);
+        return _drive.Run(state, stackalloc CoordinateTarget[] { new CoordinateTarget(coordinate, value) }, cancellation);
     }
 
     internal void Check(int coordinate, string argument)

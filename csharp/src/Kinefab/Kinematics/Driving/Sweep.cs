@@ -40,16 +40,16 @@ public sealed class Sweep
     /// <param name="progress">Told the number of steps done after each; null: nobody is.</param>
     /// <param name="cancellation">Ends the sweep early; the state then stands somewhere on the way.</param>
     /// <returns>A state for each value reached; where the motion ended early, why.</returns>
-    /// <exception cref="ArgumentException">The state is another mechanism's, there is no such coordinate, or a value is no finite number.</exception>
+    /// <exception cref="ArgumentException">The state is another mechanism's, or there is no such coordinate.</exception>
+    /// <exception cref="ArgumentOutOfRangeException">A value is no finite number, or farther than <see cref="MechanismCoordinate.Farthest"/> from where the state stands, or there is not even 1 step.</exception>
     /// <exception cref="OperationCanceledException">It was cancelled.</exception>
     public SweepResult Run(MechanismState state, int coordinate, double from, double to, int steps, IProgress<int>? progress = null, CancellationToken cancellation = default)
     {
         if (state is null)
             throw new ArgumentNullException(nameof(state));
-        if (!Finite.Is(from))
-            throw new ArgumentOutOfRangeException(nameof(from), "Not a finite number.");
-        if (!Finite.Is(to))
-            throw new ArgumentOutOfRangeException(nameof(to), "Not a finite number.");
+        _solver.Check(coordinate, nameof(coordinate));
+        _mechanism.Coordinates[coordinate].Demand(from, state.Coordinate(coordinate), nameof(from));
+        _mechanism.Coordinates[coordinate].Demand(to, state.Coordinate(coordinate), nameof(to));
         if (steps < 1)
             throw new ArgumentOutOfRangeException(nameof(steps), "At least 1.");
         var values = new List<double>(steps + 1);
@@ -109,7 +109,7 @@ public sealed class Sweep
         _solver.Check(coordinate, nameof(coordinate));
         MechanismState moved = state.Clone();
         double far = _mechanism.Coordinates[coordinate].IsAngle ? FarthestAngle : 100 * _mechanism.Length;
-        DriveResult result = _solver.Drive(moved, coordinate, state.Coordinate(coordinate) + direction * far, cancellation);
+        DriveResult result = _solver.Follow(moved, coordinate, state.Coordinate(coordinate) + direction * far, cancellation);
         return result.Converged
             ? new RangeLimit(RangeEnd.Open, moved.Coordinate(coordinate), null)
             : StopOf(moved, coordinate, direction, result);
@@ -134,7 +134,7 @@ public sealed class Sweep
     private bool Returns(MechanismState state, MechanismState before, int coordinate, CancellationToken cancellation)
     {
         _back.CopyFrom(state);
-        _solver.Drive(_back, coordinate, before.Coordinate(coordinate), cancellation);
+        _solver.Follow(_back, coordinate, before.Coordinate(coordinate), cancellation);
 
         // A way back that ends just short of a dead centre is a way back.
         // Poses, not coordinates: single angles of a joint that turns freely about several axes lose their meaning at a half turn.

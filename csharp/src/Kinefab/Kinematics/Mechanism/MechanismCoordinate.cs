@@ -1,6 +1,7 @@
 using System.Diagnostics;
 using System;
 using Kinefab.Document;
+using Kinefab.Json;
 using Kinefab.Mechanisms;
 using Kinefab.Numerics;
 
@@ -70,6 +71,15 @@ public sealed class MechanismCoordinate
     /// <summary>Degrees or metres, for messages and headings.</summary>
     public string Unit => IsAngle ? "deg" : "m";
 
+    /// <summary>Degrees that an angle may be asked to go at most, see <see cref="Farthest"/>.</summary>
+    public const double FarthestDegrees = 360_000;
+
+    /// <summary>Metres that a slide may be asked to go at most, see <see cref="Farthest"/>.</summary>
+    public const double FarthestMetres = 1000;
+
+    /// <summary>How far it may be asked to go at once from where it stands, either way, degrees or metres: all of the way is walked in small steps.</summary>
+    public double Farthest => IsAngle ? FarthestDegrees : FarthestMetres;
+
     /// <summary>
     /// A value of this coordinate as the source shows it, as far as the file tells: the sense of hinges, of slides and of turns
     /// about the axis of a slide; a file of format 1.0 tells no offset, so that zero is the exported pose.
@@ -87,6 +97,16 @@ public sealed class MechanismCoordinate
     public override string ToString() => $"{Name} [{Unit}]{(IsLocked ? ", locked" : "")}";
 
     internal int Joint { get; }
+
+    /// <summary>A value that a program asks for where the coordinate stands at another.</summary>
+    /// <exception cref="ArgumentOutOfRangeException">It is no finite number, or farther away than <see cref="Farthest"/>.</exception>
+    internal void Demand(double value, double from, string argument)
+    {
+        if (!Finite.Is(value))
+            throw new ArgumentOutOfRangeException(argument, $"The target of {Name} is not a finite number.");
+        if (!(Math.Abs(value - from) <= Farthest))
+            throw new ArgumentOutOfRangeException(argument, $"{Invariant.Text(value)}: {Name} goes at most {Invariant.Text(Farthest)} {Unit} at once, and stands at {Invariant.Text(from)}.");
+    }
 
     /// <summary>Whether it grows with the rows' own coordinate, actor 1 against actor 0.</summary>
     internal bool IsAlongRows => _coordinate.Sign > 0;

@@ -88,7 +88,8 @@ internal sealed class CoordinateCoupling
         }
     }
 
-    private static bool IsAmongOthers(CoordinateAxisMap coordinate) =>
+    /// <summary>Whether it is an angle of a joint that turns about other axes too.</summary>
+    public static bool IsAmongOthers(CoordinateAxisMap coordinate) =>
         coordinate.IsAngle && coordinate.Joint is D6Joint joint
         && (joint.Twist != AxisMotion.Locked ? 1 : 0) + (joint.Swing1 != AxisMotion.Locked ? 1 : 0) + (joint.Swing2 != AxisMotion.Locked ? 1 : 0) > 1;
 
@@ -134,18 +135,28 @@ internal sealed class CoordinateCoupling
         /// <param name="isBuilt">Whether rows are built at this pose, from which the next poses follow.</param>
         public double Evaluate(in JointFrames f, int axis, double angle, double factor, double error, bool isBuilt)
         {
-            Quaterniond q = f.Relative.Rotation;
-            double half = (angle - error / factor) / 2;
-            double cosine = Trigonometry.Cos(half), sine = Trigonometry.Sin(half);
             if (isBuilt)
             {
                 IsActive = Math.Abs(error / factor) < MostOpen;
-                _built = q.Vector[axis] * sine + q.W * cosine < 0 ? JointFrames.Negate(q) : q;
             }
 
-            if (!IsActive)
+            return IsActive ? Evaluate(f, axis, angle - error / factor, factor, isBuilt) : error;
+        }
+
+        /// <summary>C' of what the coupling says, however far the angle is from it.</summary>
+        /// <param name="f">The joint's frames.</param>
+        /// <param name="axis">0, 1 or 2.</param>
+        /// <param name="target">t.</param>
+        /// <param name="factor">f.</param>
+        /// <param name="isBuilt">Whether rows are built at this pose, from which the next poses follow.</param>
+        public double Evaluate(in JointFrames f, int axis, double target, double factor, bool isBuilt)
+        {
+            Quaterniond q = f.Relative.Rotation;
+            double half = target / 2;
+            double cosine = Trigonometry.Cos(half), sine = Trigonometry.Sin(half);
+            if (isBuilt)
             {
-                return error;
+                _built = q.Vector[axis] * sine + q.W * cosine < 0 ? JointFrames.Negate(q) : q;
             }
 
             q = JointFrames.Dot(q, _built) < 0 ? JointFrames.Negate(q) : q;

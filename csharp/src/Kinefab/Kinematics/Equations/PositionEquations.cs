@@ -8,7 +8,7 @@ namespace Kinefab.Kinematics;
 /// Turns the joints' rows into rows over the tree's freedoms. All are dimensionless: lengths over the mechanism's length,
 /// angles in radians, so that C is an error in lengths or radians and J its rate.
 /// </summary>
-internal sealed class PositionEquations
+internal sealed partial class PositionEquations
 {
     private const double LeastEntry = 1e-12;
 
@@ -18,12 +18,27 @@ internal sealed class PositionEquations
     private readonly ConstraintRow[] _rows = new ConstraintRow[JointModel.MaxRows];
     private readonly double[] _row;
 
+    // Of the coordinates of the coupling at hand.
+    private readonly ConstraintRow[] _coupled;
+
+    // For each coordinate the value to which it is being driven; NaN: it is not.
+    private readonly double[] _held;
+
     public PositionEquations(Linkage linkage, TreeMotion motion, NormalEquations normal)
     {
         _linkage = linkage;
         _motion = motion;
         _normal = normal;
         _row = new double[Math.Max(1, normal.Step.Length)];
+        _held = new double[linkage.Coordinates.Length];
+        Array.Fill(_held, double.NaN);
+        int most = 0;
+        foreach (PositionCoupling coupling in linkage.Couplings)
+        {
+            most = Math.Max(most, coupling.Terms.Length + 1);
+        }
+
+        _coupled = new ConstraintRow[most];
     }
 
     /// <summary>Sum of the squares of all errors since Clear.</summary>
@@ -74,8 +89,15 @@ internal sealed class PositionEquations
     public void AddCoordinate(int coordinate, double target, Pose[] poses, double[] values)
     {
         MechanismCoordinate source = _linkage.Coordinates[coordinate];
-        double q = Evaluate(coordinate, poses, values, out ConstraintRow row);
         RowPath path = _linkage.Rows.Joints[source.Joint];
+        if (IsHeldAmongOthers(coordinate) && AngleError(coordinate, target, 1, poses, values, out ConstraintRow angle, out _) is double error)
+        {
+            Pack(path, angle, source.JointRows, poses, 1);
+            Add(path, error);
+            return;
+        }
+
+        double q = Evaluate(coordinate, poses, values, out ConstraintRow row);
         double unit = UnitOf(coordinate);
         Pack(path, row, source.JointRows, poses, 1 / unit);
         Add(path, (q - target) / unit);
@@ -169,7 +191,13 @@ internal sealed class PositionEquations
     {
         MechanismCoordinate source = _linkage.Coordinates[coordinate];
         JointModel joint = source.JointRows;
-        values[coordinate] = source.Evaluate(Linkage.PoseOf(joint.Body0, poses), Linkage.PoseOf(joint.Body1, poses), values[coordinate], out row);
+        double last = values[coordinate];
+        values[coordinate] = source.Evaluate(Linkage.PoseOf(joint.Body0, poses), Linkage.PoseOf(joint.Body1, poses), last, out row);
+        if (_linkage.IsCoupledAmongOthers[coordinate] && SquareOf(coordinate, poses) < NoAngle * NoAngle)
+        {
+            values[coordinate] = row.GeometricError = last;
+        }
+
         return values[coordinate];
     }
 
@@ -224,15 +252,33 @@ internal sealed class PositionEquations
 
         double scale = 1 / (unit * (steepest > 0 ? steepest : 1));
         Array.Clear(_row, 0, path.Width);
-        double c = Evaluate(coupling.Driven, poses, values, out ConstraintRow row);
-        Scatter(path, coupling.Driven, row, poses, scale);
-        for (int i = 0; i < coupling.Terms.Length; i++)
+        int among = AngleAmongOthers(coupling, poses);
+        double c = CouplingError(coupling, poses, values);
+        double weight = 1;
+        if (among >= 0)
         {
-            c -= coupling.Ratios[i] * Evaluate(coupling.Terms[i], poses, values, out row);
-            Scatter(path, coupling.Terms[i], row, poses, -coupling.Ratios[i] * scale);
+            double factor = Factor(coupling, among);
+            int coordinate = Coordinate(coupling, among);
+            if (AngleError(coordinate, values[coordinate] - c / factor, factor, poses, values, out ConstraintRow angle, out double share) is double error)
+            {
+                (c, weight) = (error, share);
+                Scatter(path, coordinate, angle, poses, scale);
+            }
+            else
+            {
+                among = -1;
+            }
         }
 
-        c = (c - coupling.Offset) * scale;
+        for (int i = 0; i <= coupling.Terms.Length; i++)
+        {
+            if (i != among && !IsHeldAmongOthers(Coordinate(coupling, i)))
+            {
+                Scatter(path, Coordinate(coupling, i), _coupled[i], poses, Factor(coupling, i) * weight * scale);
+            }
+        }
+
+        c *= scale;
         if (_linkage.Coordinates[coupling.Driven].IsAngle)
         {
             WorstAngular = Math.Max(WorstAngular, Math.Abs(c));

@@ -28,6 +28,16 @@ internal sealed class Linkage
         Couplings = couplings;
         Origin = origin;
         Length = length;
+        IsCoupledAmongOthers = new bool[coordinates.Length];
+        foreach (PositionCoupling coupling in couplings)
+        {
+            IsCoupledAmongOthers[coupling.Driven] = coordinates[coupling.Driven].IsAngleAmongOthers;
+            foreach (int term in coupling.Terms)
+            {
+                IsCoupledAmongOthers[term] = coordinates[term].IsAngleAmongOthers;
+            }
+        }
+
         Tree = new KinematicTree(isFixed, joints, isClosure);
     }
 
@@ -38,6 +48,9 @@ internal sealed class Linkage
     public MechanismCoordinate[] Coordinates { get; }
 
     public PositionCoupling[] Couplings { get; }
+
+    /// <summary>For each coordinate whether it is coupled and an <see cref="CoordinateCoupling.AngleAmongOthers"/>.</summary>
+    public bool[] IsCoupledAmongOthers { get; }
 
     public KinematicTree Tree { get; }
 

@@ -111,6 +111,15 @@ public sealed class MechanismCoordinate
     /// <summary>Whether it grows with the rows' own coordinate, actor 1 against actor 0.</summary>
     internal bool IsAlongRows => _coordinate.Sign > 0;
 
+    /// <summary>Whether it is an angle of a joint that turns about other axes too, which has no value where those come to half a turn.</summary>
+    internal bool IsAngleAmongOthers => Joints.CoordinateCoupling.IsAmongOthers(_coordinate);
+
+    /// <summary>As the rows have it: 1, or -1 when it is that of actor 0 against actor 1.</summary>
+    internal double Sign => _coordinate.Sign;
+
+    /// <summary>Of an angle: 0, 1 or 2.</summary>
+    internal int AngleAxis => _coordinate.Axis - Joints.CoordinateAxis.AngularX;
+
     internal Joints.JointModel JointRows => _coordinate.Joint;
 
     /// <summary>The joint's own value at the exported pose: a slide's anchors may stand apart there.</summary>

@@ -148,6 +148,22 @@ internal sealed class NewtonSolver
     public bool Track(MechanismState state, bool acceptsDoubleRoot = true)
     {
         Motion.Start(state.Poses);
+        for (int i = 0; i < DrivenCount; i++)
+        {
+            Equations.Hold(_driven[i], _targets[i]);
+        }
+
+        bool isThere = Follow(state, acceptsDoubleRoot);
+        for (int i = 0; i < DrivenCount; i++)
+        {
+            Equations.Hold(_driven[i], double.NaN);
+        }
+
+        return isThere;
+    }
+
+    private bool Follow(MechanismState state, bool acceptsDoubleRoot)
+    {
         double previous = double.PositiveInfinity;
         _lastStep = 0;
         for (int n = 0; n < MaxTrackIterations; n++)

@@ -70,6 +70,16 @@ public sealed class ConstraintTests
     public void Mobility_OfTheLever_IsOne() => Assert.That(Lever, Has.Mobility(1));
 
     [Test]
+    public void ValidSceneAndMobility_BehindOthers_AreTheSame()
+    {
+        Assert.That(Lever, Is.ValidScene.And.Mobility(1));
+        Assert.That(Lever, Is.ValidScene.And.Not.Mobility(2));
+        Assert.That(new FileInfo("no_such.kinefab"), Is.Not.ValidScene);
+        IResolveConstraint not = Is.Not.ValidScene;
+        Assert.That(Failure(Lever, (Constraint)not.Resolve()), Does.Contain("Expected: not a scene without errors"));
+    }
+
+    [Test]
     public void Mobility_Another_SaysWhatEachBodyCanDo() => Assert.That(
         Failure(Lever, SceneConstraints.Mobility(2)), Does.Contain("Expected: mobility 2").And.Contain("But was:  mobility 1").And.Contain("Lever/BarC:1: 0 translations, 1 rotation\n"));
 

@@ -4,26 +4,22 @@ using Kinefab.Numerics;
 namespace Kinefab.Dynamics.Rattle;
 
 /// <summary>
-/// One island's step by whatever it takes: RATTLE; where that does not converge, or energy shows that it is too coarse, the
-/// step again in even parts, from its start; below the finest of these, halves of a part, and at last a projected step. Steps are
-/// also cut up front where bodies turn far or where tension makes them stiff. Even parts from the start, and kept for a
-/// while, since RATTLE keeps energy over long times at a constant step and pays for a change amid a violent motion.
+/// One island's step by whatever it takes: RATTLE; where that does not converge, or energy shows that it is too coarse, in parts that are halved where they
+/// fail; where shorter parts are of no use, a projected step. Steps are also cut up front where bodies turn far or where tension makes them stiff.
 /// </summary>
 internal sealed partial class StepController
 {
-    /// <summary>Halvings into even parts, and, below these, of a part alone.</summary>
+    /// <summary>The most halvings that a step begins with.</summary>
     public const int MaxHalvings = 10;
+
+    // Halvings after which a part that fails is left to the method that needs no chord.
     private const int MaxDepth = 12;
 
-    // Halvings of a part that no method takes: a scene that 64 times shorter steps can follow is not stopped.
-    private const int LastDepth = 18;
-
-    // Halvings into even parts where limits and drives act: blows end the long account of energy for which the parts are even.
+    // The same where limits and drives act: blows end the long account of energy for which steps keep their parts.
     private const int MaxEvenHalvings = 6;
 
-    // Failures in a step after which one that was halved where it failed is cut into even parts all the same, and, below the finest of these, parts that
-    // fail are left to the method that needs no chord.
-    private const int MaxFailures = 48;
+    // Tries in a step, beside those that it begins with, after which parts that fail are left to the method that needs no chord.
+    private const int MostTries = 36;
 
     // Stops in a step after which the rest of it is not tried: the scene cannot be followed, and says so.
     private const int MaxDampedSteps = 8;
@@ -34,15 +30,13 @@ internal sealed partial class StepController
     // Largest growth of the energy in a step, springs included, where scalar rows may take any amount.
     private const double MostEnergyGain = 5e-4;
 
-    // Of what energy may grow by in a step, the share that is a part's from the start on; the rest comes with the time.
-    private const double EarlyShare = 0.25;
+    // Of what energy may change by in a step, what a part may, and, before it is tried in shorter ones from its start, what all may together.
+    private const double PartShare = 0.25;
+    private const double MostShares = 2;
 
-    // Halvings after which a loss that is still more than a share of what it was at first is none of the step's.
+    // Halvings after which a gain or loss that is still more than a share of what it was at first is none of the step's.
     private const int TellingHalvings = 3;
-    private const double KeptLoss = 0.5;
-
-    // Of parts that were taken as one, failures after which none are.
-    private const int MaxFailedJoints = 3;
+    private const double KeptGain = 0.5;
 
     // What a part that stands still leaves of the speeds.
     private const double KeptSpeed = 0.9;
@@ -52,15 +46,11 @@ internal sealed partial class StepController
     private readonly Substep _part;
     private readonly PositionProjection _closure;
     private readonly Snapshot _start;
-    private readonly Snapshot?[] _substepStarts = new Snapshot?[LastDepth + 1];
-    private int _failures;
+    private readonly Snapshot _partStart;
     private int _dampedInStep;
     private bool _isMoved;
     private bool _hasSettled;
     private bool _hasLookedForHeld;
-    private bool _isTrial;
-    private bool _hasGivenUp;
-    private bool _hasArrived;
     private bool _hasMoved;
     private int _worst;
     private double _worstError;
@@ -69,11 +59,15 @@ internal sealed partial class StepController
     private StepTroubles _troubles;
     private bool _isAudited;
     private bool _isSingular;
-    private int _firstLossHalvings;
-    private double _firstLoss;
+    private bool _wasSingular;
+    private int _firstGainHalvings;
+    private double _firstGain;
+    private double _gain;
+    private double _excess;
+    private bool _isOfAnyLength;
+    private bool _isSmooth;
     private EnergyAudit _energy;
     private EnergyLedger _ledger;
-    private int _leastHalvings;
     private double _dt;
     private double _elapsed;
     private double _tolerance;
@@ -85,6 +79,7 @@ internal sealed partial class StepController
         _part = new Substep(batch, _conjugateGradient);
         _closure = new PositionProjection(batch, _conjugateGradient);
         _start = new Snapshot(batch);
+        _partStart = new Snapshot(batch);
     }
 
     /// <summary>Parts in which the island stood still: no method could take them, or too many before them.</summary>
@@ -118,7 +113,6 @@ internal sealed partial class StepController
         _ledger = cut.Energy;
         int stops = DampedSteps;
         int halvings = FirstHalvings(hasFailed && !_part.IsEager ? Math.Max(cut.Halvings, 1) : cut.Halvings, out double demand);
-        _leastHalvings = halvings;
         SaveStart();
         FindDrivesThatMove();
         halvings = TakeParts(halvings, ref cut);
@@ -145,14 +139,17 @@ internal sealed partial class StepController
         _part.HoldsPassedLimits = false;
         _dt = dt;
         _tolerance = tolerance;
-        _failures = 0;
         _elapsed = 0;
         _dampedInStep = 0;
         _hasMoved = false;
         _hasSettled = false;
         _hasLookedForHeld = false;
         _isSingular = isSingular;
-        _firstLoss = 0;
+        _wasSingular = isSingular;
+        _firstGain = 0;
+        _gain = 0;
+        _excess = 0;
+        _isOfAnyLength = false;
         _isAudited = LaneEnergy<ScalarLane>.IsKnown(_batch, 0);
         _batch.ActiveSet?.BeginPace(dt);
     }
@@ -208,7 +205,7 @@ internal sealed partial class StepController
     {
         if (_batch.ActiveSet != null && _batch.ActiveSet.HasHeld())
         {
-            FindHeldDrives();
+            FindHeldDrives(_start, _dt);
         }
 
         if (_batch.ActiveSet != null && _batch.ActiveSet.NextResting(0) >= 0)
@@ -218,107 +215,43 @@ internal sealed partial class StepController
         }
     }
 
-    private void FindHeldDrives()
+    private void FindHeldDrives(Snapshot start, double h)
     {
         _hasLookedForHeld = true;
         HeldDrives.Find(_batch, _batch.ActiveSet!, _conjugateGradient);
-        Return(_start, _dt);
+        Return(start, h);
     }
 
-    // The step in even parts, as few as will do; where more are of no use, in whatever parts a method takes. The halvings that it took.
+    // Once more from its start in shorter parts where the account does not take what they left too much. The halvings of the next step's.
     private int TakeParts(int halvings, ref SubstepHistory cut)
     {
-        bool hasHalvedThere = false;
-        while (true)
+        int next = TakeParts(halvings);
+        while (halvings < MostEven && _isAudited && (_excess > MostShares || !CanTakeGain()))
         {
-            bool isTaken = TryEvenParts(halvings);
-            if (HasRunAway)
-            {
-                // Before the step counts, what holds the drive that ran away is looked for.
-                Return(_start, _dt);
-                _hasMoved = false;
-                FindHeldDrives();
-                continue;
-            }
-
-            if (isTaken)
-            {
-                break;
-            }
-
-            bool wasEager = _part.IsEager;
             ReturnToStart();
-            if (RestOn())
-            {
-                _start.Save(_batch);
-                continue;
-            }
-
-            LookAgainAtStart();
-            if (wasEager && !hasHalvedThere && IsInOnePlace())
-            {
-                hasHalvedThere = true;
-                if (TryHalving(halvings))
-                {
-                    break;
-                }
-
-                Return(_start, _dt);
-            }
-
-            if (halvings >= MostEven)
-            {
-                halvings = SubstepUntilSolved(halvings);
-                break;
-            }
-
-            halvings = NextHalvings(halvings, wasEager, ref cut);
+            halvings++;
+            next = TakeParts(halvings);
         }
 
-        return halvings;
+        cut.IsSingular |= _isSingular;
+        return next;
+    }
+
+    private void ReturnToStart()
+    {
+        _gain = 0;
+        _excess = 0;
+        Return(_start, _dt);
+        _hasMoved = false;
+        _elapsed = 0;
     }
 
     private bool HasRunAway => !_hasLookedForHeld && _batch.ActiveSet is { HasRunAway: true };
 
-    // What failed is tried again with rows that keep to their bounds in each iteration.
-    private void ReturnToStart()
-    {
-        Return(_start, _dt);
-        _hasMoved = false;
-        _part.IsEager = true;
-    }
-
-    // What a step that goes well has no need to ask: which drives the joints hold, and which speeds they forbid.
-    private void LookAgainAtStart()
-    {
-        if (!_hasLookedForHeld && _batch.ActiveSet != null && _batch.ActiveSet.HasEndless())
-        {
-            FindHeldDrives();
-        }
-
-        if (!_hasSettled)
-        {
-            ProjectStartSpeeds();
-            SaveStart();
-        }
-    }
-
-    // Where it has come out that what is lost is none of the step's length, as few as it was first lost at.
-    private int NextHalvings(int halvings, bool wasEager, ref SubstepHistory cut)
-    {
-        if (_isSingular == cut.IsSingular)
-        {
-            return wasEager ? halvings + 1 : halvings;
-        }
-
-        cut.IsSingular = true;
-        return _firstLossHalvings;
-    }
-
     // What the island's next step takes from this one.
     private void End(ref SubstepHistory cut, int halvings, double demand)
     {
-        cut.IsSingular = _isSingular && !new EnergyAudit(_batch, _dt, _tolerance).IsKept(_energy, false, MostEnergyChange);
+        cut.IsSingular = _isSingular && new EnergyAudit(_batch, _dt, _tolerance).Excess(_energy, false, MostEnergyChange) > 1;
         Enter(ref cut.Energy);
         bool comesToRest = false;
         cut.IsSlowedDown = _batch.ActiveSet != null && _batch.ActiveSet.EndPace(_dt, _tolerance / _dt, out comesToRest);
@@ -367,180 +300,188 @@ internal sealed partial class StepController
     // At the finest even parts a violent motion on which no scalar row acts may lose energy: nothing below these is better. Were it allowed to lose
     // at any, while a gain is mended, an energy that swings about its value would be let down step by step. What is left there of a gain the account takes
     // from the speeds.
-    private bool IsEnergyKept(int halvings, double h) => !_isAudited || IsEnergyKept(new EnergyAudit(_batch, _dt, _tolerance), halvings, h);
-
-    private bool IsEnergyKept(in EnergyAudit end, int halvings, double h)
+    private double Excess(in EnergyAudit end, int halvings)
     {
-        // A gain is a part's own to mend, not that of the part after it.
-        double share = EarlyShare + (1 - EarlyShare) * (_elapsed + h) / _dt;
         bool mayLose = MayLose || halvings >= MostEven;
-        return end.IsKept(_energy, mayLose, share * (mayLose ? MostEnergyGain : MostEnergyChange));
+        return end.Excess(_energy, mayLose, mayLose ? MostEnergyGain : MostEnergyChange);
     }
 
-    private bool TryEvenParts(int halvings)
+    // Whether what the account takes of the step at its end is enough.
+    private bool CanTakeGain()
     {
-        _hasArrived = TrySubsteps(halvings);
-        if (!_hasArrived)
+        var end = new EnergyAudit(_batch, _dt, _tolerance);
+        return !end.IsClosed || _ledger.CanTake(end.GainSince(_energy), end.Moving, LaneEnergy<ScalarLane>.Takeable(_batch, 0, end.Kinetic, out _));
+    }
+
+    // What a step that is too long gains or loses, shorter ones do not; what goes where branches of a loop's motion meet, goes whatever their length.
+    private void FindSingular(double gain, int halvings)
+    {
+        if (_firstGain == 0)
+        {
+            _firstGain = gain;
+            _firstGainHalvings = halvings;
+        }
+
+        _isOfAnyLength = halvings >= _firstGainHalvings + TellingHalvings && gain / _firstGain > KeptGain;
+        _isSingular |= _isOfAnyLength && gain < 0 && _batch.Shape.HasJointLoops;
+    }
+
+    // The step in parts of so many halvings, the most that are taken as one, and shorter ones where these fail. The halvings of the next step's.
+    private int TakeParts(int halvings)
+    {
+        var length = new PartLength(halvings);
+        int mostTries = _part.Tries + MostTries + (1 << halvings);
+        bool isOfEnergy = false, isSpent = false;
+        while (!length.IsDone && _dampedInStep < MaxDampedSteps)
+        {
+            double h = _dt / (1 << length.Halvings);
+            Snapshot start = SavePartStart(length.IsFirst);
+            if (!TryPart(h, length.Halvings, out bool hasArrived))
+            {
+                Return(start, h);
+                if (IsChanged(start, h, hasArrived, ref length))
+                {
+                    continue;
+                }
+
+                isOfEnergy |= hasArrived;
+                if (!isSpent && _part.Tries >= mostTries)
+                {
+                    isSpent = true;
+                    length.Lengthen(MaxEvenHalvings);
+                    continue;
+                }
+
+                if ((!isSpent && !_isOfAnyLength && length.Halvings < MaxDepth) || !TakeOtherwise(start, h, length.Halvings))
+                {
+                    length.Halve();
+                    continue;
+                }
+            }
+
+            _elapsed += h;
+            _firstGain = 0;
+            _isOfAnyLength = false;
+            length.Take(_isSmooth);
+        }
+
+        // What does not arrive in one place is none of the next step's.
+        return Math.Min(MostEven, length.Fewest == halvings + 1 && !isOfEnergy ? halvings : length.Fewest);
+    }
+
+    private Snapshot SavePartStart(bool isFirst)
+    {
+        if (isFirst)
+        {
+            return _start;
+        }
+
+        _partStart.Save(_batch);
+        return _partStart;
+    }
+
+    // By the method that needs no chord, or, the shortest, standing still.
+    private bool TakeOtherwise(Snapshot start, double h, int halvings)
+    {
+        if (TryProjected(start, h, halvings))
+        {
+            return true;
+        }
+
+        if (halvings < PartLength.MaxHalvings)
+        {
+            Return(start, h);
+            return false;
+        }
+
+        Stop(start, h);
+        return true;
+    }
+
+    private bool TryPart(double h, int halvings, out bool hasArrived)
+    {
+        _part.SetLength(h);
+        _part.HoldsPassedLimits = halvings >= MaxDepth;
+        hasArrived = _part.TryRattle(h, _tolerance) && !HasRunAway;
+        if (!hasArrived || !IsPartKept(h, halvings))
         {
             return false;
         }
 
+        _hasMoved = true;
+        return true;
+    }
+
+    // Local errors of a second order method are of the third: where parts keep to a share of what the step may have, whatever their length, so does their sum.
+    private bool IsPartKept(double h, int halvings)
+    {
         if (!_isAudited)
         {
+            _isSmooth = true;
             return true;
         }
 
         var end = new EnergyAudit(_batch, _dt, _tolerance);
-        if (IsEnergyKept(end, halvings, _dt) && (halvings >= MostEven || CanTakeGain(end)))
+        double excess = Excess(end, halvings), gain = end.GainSince(_energy);
+        if (!(excess <= _excess + Math.Max(PartShare, h / _dt)))
         {
-            return true;
+            FindSingular(gain - _gain, halvings);
+            return false;
         }
 
-        FindSingular(end, halvings);
-        return false;
-    }
-
-    // Whether what the account takes of the step at its end is enough.
-    private bool CanTakeGain(in EnergyAudit end) =>
-        !end.IsClosed || _ledger.CanTake(end.GainSince(_energy), end.Moving, LaneEnergy<ScalarLane>.Takeable(_batch, 0, end.Kinetic, out _));
-
-    // What a step that is too long loses, shorter ones do not lose; what goes where branches of a loop's motion meet, goes whatever their length.
-    private void FindSingular(in EnergyAudit end, int halvings)
-    {
-        double loss = -end.GainSince(_energy);
-        if (_isSingular || !(loss > 0) || !_batch.Shape.HasJointLoops)
-        {
-            return;
-        }
-
-        if (_firstLoss == 0)
-        {
-            _firstLoss = loss;
-            _firstLossHalvings = halvings;
-        }
-
-        _isSingular = halvings >= _firstLossHalvings + TellingHalvings && loss > KeptLoss * _firstLoss;
-    }
-
-    private bool TrySubsteps(int halvings)
-    {
-        double h = _dt / (1 << halvings);
-        _part.SetLength(h);
-        for (int i = 1 << halvings; i > 0; i--)
-        {
-            if (!_part.TryRattle(h, _tolerance) || HasRunAway)
-            {
-                return false;
-            }
-
-            _hasMoved = true;
-        }
-
+        _isSmooth = gain - _gain <= end.Allowed(_energy, MayLose, PartShare * (MayLose ? MostEnergyGain : MostEnergyChange));
+        _excess = excess;
+        _gain = gain;
         return true;
     }
 
-    // Where limits and drives act, what does not arrive is mostly in one place. Energy is a matter of the whole step's length, and a drive without limit of
-    // force that does not get on is in the way all along.
-    private bool IsInOnePlace() => _part.HasFailedAtEvent || (!_hasArrived && _batch.ActiveSet != null && !_batch.ActiveSet.HasSlowedDown());
-
-    // The step is halved where it fails and nowhere else; false where that takes more than a few parts.
-    private bool TryHalving(int halvings)
+    // What a part that goes well has no need to ask: whether the loop is singular, which speeds the joints forbid at the step's start and which drives they
+    // hold, and whether rows keep to their bounds in each iteration. Whether the part is worth another try after it.
+    private bool IsChanged(Snapshot start, double h, bool hasArrived, ref PartLength length)
     {
-        _isTrial = true;
-        SubstepUntilSolved(halvings);
-        _isTrial = false;
-        if (!_hasGivenUp)
+        if (_isSingular != _wasSingular)
         {
+            _wasSingular = true;
+            length.Lengthen(_firstGainHalvings);
             return true;
         }
 
-        _hasGivenUp = false;
-        _hasMoved = false;
-        _failures = 0;
-        _elapsed = 0;
-        return false;
+        if (length.IsFirst && RestOn())
+        {
+            start.Save(_batch);
+            return true;
+        }
+
+        bool isChanged = LooksForHeld(start, h);
+        if (length.IsFirst && !_hasSettled)
+        {
+            ProjectStartSpeeds();
+            SaveStart();
+            isChanged = true;
+        }
+
+        if (!hasArrived && !_part.IsEager && _batch.ActiveSet != null)
+        {
+            _part.IsEager = true;
+            isChanged = true;
+        }
+
+        return isChanged;
     }
 
-    // Parts of so many halvings, the next two as one after each that was taken: what is hard in one place is not so after it. The halvings at the end.
-    private int SubstepUntilSolved(int finest)
+    private bool LooksForHeld(Snapshot start, double h)
     {
-        int failedJoints = 0;
-        int halvings = finest;
-        for (int done = 0; done < 1 << finest;)
+        if (_hasLookedForHeld || _batch.ActiveSet == null || !_batch.ActiveSet.HasEndless())
         {
-            int depth = halvings;
-            while (done % (1 << (finest - depth)) != 0)
-            {
-                depth++;
-            }
-
-            int failures = _failures;
-            Halve(_dt / (1 << depth), depth);
-            done += 1 << (finest - depth);
-            if (failures != _failures)
-            {
-                failedJoints += depth < finest ? 1 : 0;
-                halvings = Math.Min(finest, depth + 1);
-            }
-            else if (depth == halvings && halvings > _leastHalvings && failedJoints < MaxFailedJoints)
-            {
-                halvings--;
-            }
+            return false;
         }
 
-        return halvings;
-    }
-
-    private void Halve(double h, int depth)
-    {
-        _hasGivenUp = _isTrial && (_hasGivenUp || _failures > MaxFailures);
-        if (_hasGivenUp)
-        {
-            return;
-        }
-
-        Snapshot start = _substepStarts[depth] ??= new Snapshot(_batch);
-        _part.SetLength(h);
-        start.Save(_batch);
-        bool isHopeless = _dampedInStep == MaxDampedSteps;
-        _part.HoldsPassedLimits = depth >= MaxDepth;
-        if (!isHopeless && _part.TryRattle(h, _tolerance) && IsEnergyKept(depth, h))
-        {
-            _hasMoved = true;
-            _elapsed += h;
-            return;
-        }
-
-        if (!isHopeless && depth < MaxDepth && _failures++ < MaxFailures)
-        {
-            HalveAgain(start, h, depth);
-            return;
-        }
-
-        if (!isHopeless && TryFallback(start, h, depth))
-        {
-            _hasMoved = true;
-        }
-        else if (_isTrial)
-        {
-            _hasGivenUp = true;
-            return;
-        }
-        else if (!isHopeless && depth < LastDepth)
-        {
-            HalveAgain(start, h, depth);
-            return;
-        }
-        else
-        {
-            Stop(start, h, isHopeless);
-        }
-
-        _elapsed += h;
+        FindHeldDrives(start, h);
+        return true;
     }
 
     // A part that no method takes stands still, and of the first in the step it is noted why.
-    private void Stop(Snapshot start, double h, bool isHopeless)
+    private void Stop(Snapshot start, double h)
     {
         if (_dampedInStep == 0)
         {
@@ -550,23 +491,21 @@ internal sealed partial class StepController
         }
 
         Return(start, h);
-        _dampedInStep += isHopeless ? 0 : 1;
+        _dampedInStep++;
         DampedSteps++;
         Damp(KeptSpeed);
     }
 
-    private void HalveAgain(Snapshot start, double h, int depth)
+    private bool TryProjected(Snapshot start, double h, int halvings)
     {
         Return(start, h);
-        Halve(h / 2, depth + 1);
-        Halve(h / 2, depth + 1);
-        _part.SetLength(h);
-    }
+        if (!_part.TryProjected(h, _tolerance, _isAudited ? _energy : null) || !IsPartKept(h, halvings))
+        {
+            return false;
+        }
 
-    private bool TryFallback(Snapshot start, double h, int depth)
-    {
-        Return(start, h);
-        return _part.TryProjected(h, _tolerance, _isAudited ? _energy : null) && IsEnergyKept(depth, h);
+        _hasMoved = true;
+        return true;
     }
 
     private void Return(Snapshot start, double h)

@@ -126,17 +126,20 @@ internal readonly struct EnergyAudit
     }
 
     /// <summary>
-    /// Whether energy less work changed since by no more than a share of what moves, and rounding. Where it may be lost, as
-    /// to scalar rows, whether it grew by no more than that and what drives can have given.
+    /// By how much energy less work changed since, against a share of what moves, once rounding is off. Where it may be lost, as to scalar rows, by how
+    /// much it grew beyond what drives can have given. Up to 1 it is kept.
     /// </summary>
-    public bool IsKept(in EnergyAudit since, bool mayLose, double share)
+    public double Excess(in EnergyAudit since, bool mayLose, double share)
     {
         double change = Change(since);
         double rounding = Rounding * (_terms + since._terms) + Math.Max(_floor, since._floor);
-        return mayLose
-            ? change <= share * (since.Kinetic + since._stored + Math.Abs(_sprung - since._sprung) + _forced) + _driven + rounding
-            : Math.Abs(change) <= share * (Kinetic + _forced) + rounding;
+        double excess = mayLose ? change - _driven - rounding : Math.Abs(change) - rounding;
+        return excess <= 0 ? 0 : excess / Allowed(since, mayLose, share);
     }
+
+    /// <summary>A share of what moves, J, see <see cref="Excess"/>.</summary>
+    public double Allowed(in EnergyAudit since, bool mayLose, double share) =>
+        share * (mayLose ? since.Kinetic + since._stored + Math.Abs(_sprung - since._sprung) + _forced : Kinetic + _forced);
 
     private double Change(in EnergyAudit since) =>
         Kinetic + _stored - since.Kinetic - since._stored - (_work - since._work) - (_sprung - since._sprung);

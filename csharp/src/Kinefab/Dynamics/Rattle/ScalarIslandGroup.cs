@@ -81,6 +81,9 @@ internal sealed class ScalarIslandGroup : IslandGroup
     public override void Exchange(StateTape tape, int island)
     {
         _batches[island].Exchange(tape);
+
+        // They stand with the factor, which the next step may take over.
+        tape.Array(_batches[island].Work.Response);
         _corrections[island]?.Exchange(tape);
         tape.Value(ref _histories[island]);
     }

@@ -63,7 +63,7 @@ internal sealed class Workspace<V>
     /// <summary>Ends the step early, as <see cref="MultibodySystem.Cancellation"/>.</summary>
     public CancellationToken Cancellation { get; set; }
 
-    /// <summary>Angular J times the inverse inertia, as <see cref="LaneRecords{V}.Angular"/>.</summary>
+    /// <summary>Angular J times the inverse inertia, as <see cref="LaneRecords{V}.Angular"/>: of the matrix that was assembled last.</summary>
     public double[] Response { get; }
 
     /// <summary>A body's record in four lanes, for four bodies of one island that turn side by side.</summary>

@@ -270,6 +270,22 @@ public sealed class WorldCreationTests
         Assert.That(world.Bodies[0].LinearVelocity.Length, Is.LessThan(1e-9));
     }
 
+    // Damping takes of turning not what it takes of going, so that what is left is not as the joint has it.
+    [TestCase(0, 0.05)]
+    [TestCase(0.5, 0)]
+    [TestCase(2, 3)]
+    public void Speeds_ThatTheJointsAllow_AreNotTold_WhateverTheDamping(double linear, double angular)
+    {
+        var anchor = new Vector3d(0.1, 0.4, -0.2);
+        Vector3d axis = SmallScene.OwnPose.Rotation * Vector3d.UnitZ;
+        World world = SmallScene.Create(new HingeJoint { Anchor = anchor, Axis = Vector3d.UnitZ }, new Rigidbody { LinearDamping = linear, AngularDamping = angular }, solver: SolverKind.Exact);
+        world.Bodies[0].AngularVelocity = 3 * axis;
+        world.Bodies[0].LinearVelocity = Vector3d.Cross(3 * axis, SmallScene.OwnPose.Rotation * -anchor);
+        world.Step(0.02);
+        Assert.That(world.Findings.Diagnostics, Is.Empty);
+        Assert.That(world.Bodies[0].AngularVelocity.Length, Is.LessThan(3).And.GreaterThan(2.8));
+    }
+
     [Test]
     public void MassScale_ExactSolver_IsNamedAsIgnored()
     {

@@ -25,7 +25,7 @@ internal sealed class Workspace<V>
         BodiesBefore = shape.ScalarCount > 0 ? new double[shape.Bodies.Length * BodyLanes.Count * w] : Array.Empty<double>();
         Error = new double[rows * w];
         LastError = new double[rows * w];
-        Momenta = shape.IsRedundant ? new double[6 * shape.MovingBodies * w] : Array.Empty<double>();
+        Momenta = new double[6 * shape.MovingBodies * w];
         LastAngles = shape.IsInconsistent ? new double[rows * w] : Array.Empty<double>();
         CompliantInertia = new double[w];
         CompliantWork = new double[w];
@@ -72,7 +72,7 @@ internal sealed class Workspace<V>
     /// <summary>The bodies' records before a blow; none where there are no scalar rows.</summary>
     public double[] BodiesBefore { get; }
 
-    /// <summary>Velocities and angular momenta of the moving bodies, while those that impulses give stand in their place; none without loops.</summary>
+    /// <summary>Velocities and angular momenta of the moving bodies, while others stand in their place: those that impulses give, or those before damping.</summary>
     public double[] Momenta { get; }
 
     /// <summary>C at the end of the drift, and one iteration before.</summary>

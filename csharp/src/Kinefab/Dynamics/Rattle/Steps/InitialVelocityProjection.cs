@@ -13,7 +13,7 @@ internal static class InitialVelocityProjection
     /// <summary>Speed of a locked row that counts as forbidden, m/s or rad/s.</summary>
     public const double MostForbidden = 1e-6;
 
-    /// <summary>The locked row with the largest speed, or -1 where none is forbidden.</summary>
+    /// <summary>The locked row with the largest speed, or -1 where none is forbidden: of the speeds before damping, which takes not as much of all.</summary>
     /// <param name="batch">Built at the start pose.</param>
     /// <param name="speed">Its speed, m/s or rad/s.</param>
     public static int Find(LaneBatch<ScalarLane> batch, out double speed)
@@ -27,7 +27,9 @@ internal static class InitialVelocityProjection
             batch.Scalars.Invalidate();
         }
 
+        Undamp(batch);
         Impulses<ScalarLane>.NegativeSpeeds(batch);
+        Dampen(batch);
         for (int n = 0; n < batch.Shape.Blocks.Length; n++)
         {
             int first = batch.Shape.Pattern.Rows[n];
@@ -73,6 +75,38 @@ internal static class InitialVelocityProjection
         if (batch.ActiveSet == null)
         {
             RattleStep<ScalarLane>.Factor(batch, true);
+        }
+    }
+
+    // Of a speed of which damping leaves nothing, nothing is known.
+    private static void Undamp(LaneBatch<ScalarLane> batch)
+    {
+        double[] a = batch.Bodies;
+        Vector3d frame = LaneTransfer<ScalarLane>.ReadVector(batch.Work.FrameVelocity, 0);
+        for (int body = 0; body < batch.Shape.MovingBodies; body++)
+        {
+            int o = LaneBatch<ScalarLane>.Body(body, 0);
+            Array.Copy(a, o + BodyLanes.V, batch.Work.Momenta, 6 * body, 6);
+            double linear = a[o + BodyLanes.DampingFactors];
+            double angular = a[o + BodyLanes.DampingFactors + 1];
+            if (linear > 0)
+            {
+                Vector3d damped = LaneTransfer<ScalarLane>.ReadVector(a, o + BodyLanes.V) + frame;
+                LaneTransfer<ScalarLane>.Write(a, o + BodyLanes.V, damped * (1 / linear) - frame);
+            }
+
+            if (angular > 0)
+            {
+                LaneTransfer<ScalarLane>.Write(a, o + BodyLanes.L, LaneTransfer<ScalarLane>.ReadVector(a, o + BodyLanes.L) * (1 / angular));
+            }
+        }
+    }
+
+    private static void Dampen(LaneBatch<ScalarLane> batch)
+    {
+        for (int body = 0; body < batch.Shape.MovingBodies; body++)
+        {
+            Array.Copy(batch.Work.Momenta, 6 * body, batch.Bodies, LaneBatch<ScalarLane>.Body(body, BodyLanes.V), 6);
         }
     }
 }

@@ -48,6 +48,16 @@ internal readonly struct CoordinateAxisMap
             return row.GeometricError;
         }
 
+        return EvaluateAngle(f, near, out row);
+    }
+
+    /// <summary>The same of an angle.</summary>
+    /// <param name="f">The joint's frames.</param>
+    /// <param name="near">Of the angles that differ by whole turns the one nearest to this is taken.</param>
+    /// <param name="row">Only its J and GeometricError (= q) hold.</param>
+    public double EvaluateAngle(in JointFrames f, double near, out ConstraintRow row)
+    {
+        row = default;
         int axis = Axis - CoordinateAxis.AngularX;
         row.Angular0 = (Joint is RevoluteJoint ? f.Axis0(axis) : Gradient(f, axis)) * -Sign;
         row.Angular1 = row.Angular0;

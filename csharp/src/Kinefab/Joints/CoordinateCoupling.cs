@@ -55,7 +55,7 @@ internal sealed class CoordinateCoupling
         foreach (int i in AnglesAmongOthers)
         {
             Among = i;
-            ((D6Joint)Coordinates[i].Joint).CoupledAngles |= 1 << (Coordinates[i].Axis - CoordinateAxis.AngularX);
+            ((D6Joint)Coordinates[i].Joint).Couple(Coordinates[i].Axis - CoordinateAxis.AngularX, this);
         }
     }
 
@@ -92,6 +92,53 @@ internal sealed class CoordinateCoupling
     public static bool IsAmongOthers(CoordinateAxisMap coordinate) =>
         coordinate.IsAngle && coordinate.Joint is D6Joint joint
         && (joint.Twist != AxisMotion.Locked ? 1 : 0) + (joint.Swing1 != AxisMotion.Locked ? 1 : 0) + (joint.Swing2 != AxisMotion.Locked ? 1 : 0) > 1;
+
+    /// <summary>
+    /// What it says of an angle of a joint all of whose coordinates are angles of that joint too, by the others, where none of them is as near to where it
+    /// has no value. Its gradient and that of the angle itself differ by a multiple of the coupling's own: they ask for the same motion.
+    /// </summary>
+    /// <param name="axis">0, 1 or 2.</param>
+    /// <param name="f">The joint's frames.</param>
+    /// <param name="angle">Of frame 1 against frame 0, radians, with its whole turns.</param>
+    /// <param name="gradient">Its gradient for the angular velocity of frame 1 against frame 0, in the world.</param>
+    public bool TryFollowOthers(int axis, in JointFrames f, out double angle, out Vector3d gradient)
+    {
+        angle = 0;
+        gradient = Vector3d.Zero;
+        int own = -1;
+        double others = double.PositiveInfinity;
+        for (int i = 0; i < Coordinates.Length; i++)
+        {
+            if (Coordinates[i].Joint != Coordinates[0].Joint || !Coordinates[i].IsAngle)
+            {
+                return false;
+            }
+
+            int other = Coordinates[i].Axis - CoordinateAxis.AngularX;
+            own = other == axis ? i : own;
+            others = other == axis ? others : Math.Min(others, AngleAmongOthers.SquareOf(f, other));
+        }
+
+        if (own < 0 || !(others > AngleAmongOthers.SquareOf(f, axis)))
+        {
+            return false;
+        }
+
+        double left = Offset;
+        for (int i = 0; i < Coordinates.Length; i++)
+        {
+            if (i != own)
+            {
+                left -= Factors[i] * Coordinates[i].EvaluateAngle(f, Last[i], out ConstraintRow row);
+                gradient += row.Angular0 * Factors[i];
+            }
+        }
+
+        double scale = Coordinates[own].Sign / Factors[own];
+        angle = left * scale;
+        gradient *= scale;
+        return true;
+    }
 
     /// <summary>Factor times coordinate at the poses of its joint's bodies; its row is noted in <see cref="Rows"/>.</summary>
     public double Evaluate(int coordinate, in Pose body0, in Pose body1) =>

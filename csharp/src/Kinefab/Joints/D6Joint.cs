@@ -20,8 +20,9 @@ internal sealed class D6Joint : JointModel
 
     public LinearLimit LinearLimit;
 
-    /// <summary>A bit for each angle: whether a coupling holds it, so that it has weight at any swing.</summary>
-    public int CoupledAngles;
+    // For each angle the coupling that holds it, so that it has weight at any swing; null without any.
+    private CoordinateCoupling?[]? _couplings;
+
     public AngularLimit TwistLimit;
     public ConeLimit SwingLimit;
 
@@ -65,7 +66,7 @@ internal sealed class D6Joint : JointModel
         var d6 = (D6Joint)copy;
         (X, Y, Z, Twist, Swing1, Swing2) = (d6.X, d6.Y, d6.Z, d6.Twist, d6.Swing1, d6.Swing2);
         LinearLimit = d6.LinearLimit;
-        CoupledAngles = d6.CoupledAngles;
+        _couplings = d6._couplings;
         TwistLimit = d6.TwistLimit;
         SwingLimit = d6.SwingLimit;
         (DriveX, DriveY, DriveZ) = (d6.DriveX, d6.DriveY, d6.DriveZ);
@@ -257,17 +258,29 @@ internal sealed class D6Joint : JointModel
         }
     }
 
-    private bool IsCoupledAngle(int axis) => (CoupledAngles >> axis & 1) != 0;
+    /// <summary>Notes that a coupling holds an angle.</summary>
+    /// <param name="axis">0, 1 or 2.</param>
+    /// <param name="coupling">The coupling.</param>
+    public void Couple(int axis, CoordinateCoupling coupling) => (_couplings ??= new CoordinateCoupling?[3])[axis] = coupling;
 
     // C = c times the angle about an axis that is left to the goal, by the shorter way, J its gradient, c as of a limit: what is prescribed is met at whatever
-    // swing. The torque, of J times it, keeps its limit.
+    // swing. The torque, of J times it, keeps its limit. An angle that a coupling holds has weight there too; where the coupling is one of the joint's own
+    // angles it says the angle by the others, which have a value where this one has none.
     private void AngularMotion(ref RowWriter writer, in JointFrames f, int axis, Vector3d axis1, in DriveModel drive)
     {
         Quaterniond at = f.Relative.Rotation;
         Quaterniond to = DrivePose.Rotation;
-        double goal = axis == 0 && !double.IsNaN(DriveTwistAngle) ? DriveTwistAngle : 2 * Trigonometry.Atan2(to.Vector[axis], to.W);
-        double angle = SwingTwist.Nearest(2 * Trigonometry.Atan2(at.Vector[axis], at.W), axis == 0 && !double.IsNaN(DriveTwistAngle) ? LastTwist : goal);
-        if (IsCoupledAngle(axis))
+        bool isCounted = axis == 0 && !double.IsNaN(DriveTwistAngle);
+        double goal = isCounted ? DriveTwistAngle : 2 * Trigonometry.Atan2(to.Vector[axis], to.W), near = isCounted ? LastTwist : goal;
+        CoordinateCoupling? coupling = _couplings?[axis];
+        if (coupling != null && coupling.TryFollowOthers(axis, f, out double followed, out Vector3d others))
+        {
+            writer.AngularDrive(others, 0, goal - SwingTwist.Nearest(followed, near), drive);
+            return;
+        }
+
+        double angle = SwingTwist.Nearest(2 * Trigonometry.Atan2(at.Vector[axis], at.W), near);
+        if (coupling != null)
         {
             Vector3d unit = SwingTwist.WeighedGradient(f.Axis0(axis), axis1, 0, out double c);
             writer.AngularDrive(unit * (1 / Math.Max(SwingTwist.LeastWeight, c)), 0, goal - angle, drive);

@@ -168,6 +168,29 @@ internal sealed class WeighedTwistTests
         static double Between(Quaterniond one, Quaterniond other) => 2 * Math.Asin((one.Conjugate() * other).Vector.Length);
     }
 
+    /// <summary>
+    /// At y = x / 0.5 = 180 degrees the driven angle x has no value: it comes to it, and goes over it, as anywhere else. It was thrown back at 32 rad/s there, and
+    /// told of a drive that stalls.
+    /// </summary>
+    [Test]
+    public void DriveTo_CoupledAngleOverItsOwnPole_GetsThere([Values(90, 120, 170)] double goal, [Values(0.02, 0.01)] double dt)
+    {
+        World world = BallOfTwoCoupledAngles(0.5, 0.1);
+        WorldJoint joint = world.Joints[0];
+        joint.DriveTo(Coordinate.AngularX, goal);
+        double last = 0;
+        for (int i = 1; i <= 3 / dt; i++)
+        {
+            world.Step(dt);
+            double now = joint.Coordinate(Coordinate.AngularY);
+            Assert.That(now, Is.GreaterThan(last - 1e-6), $"step {i}");
+            last = now;
+        }
+
+        Assert.That(last, Is.EqualTo(2 * goal).Within(1e-6));
+        Assert.That(world.Findings.Diagnostics, Is.Empty);
+    }
+
     private static World BallOfTwoCoupledAngles(double ratio, double inertia)
     {
         const ConfigurableJointMotion free = ConfigurableJointMotion.Free, locked = ConfigurableJointMotion.Locked;

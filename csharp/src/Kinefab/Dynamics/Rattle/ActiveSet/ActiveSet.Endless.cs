@@ -12,7 +12,7 @@ internal sealed partial class ActiveSet<V>
     private const double MostByLevers = 30;
     private const double MostByGears = 1e3;
 
-    // By how much the drives of one joint's angles, whose axes are not at right angles, may work against each other.
+    // By how much one joint's angles, whose axes are not at right angles, may work against each other.
     private const double MostBySkew = 4;
 
     // How often the speed of one that the mechanism does not follow is halved in a step.
@@ -250,7 +250,24 @@ internal sealed partial class ActiveSet<V>
             drive.Pace.Inertia = unit[drive.Index];
         }
 
-        return before > 0 && drive.Pace.Inertia > ByGears(0) * MostInertia(drive, out _) ? drive.Pace.Inertia / before : 1;
+        double most = ByGears(0) * MostInertia(drive, out _) * (IsCoupledAmongOthers(drive) ? MostBySkew : 1);
+        return before > 0 && drive.Pace.Inertia > most ? drive.Pace.Inertia / before : 1;
+    }
+
+    // Whether a coupling holds an angle of a drive's joint that turns about other axes too: of coupled angles, whose axes are not at right angles, one may turn
+    // much where the other turns little.
+    private bool IsCoupledAmongOthers(in ScalarRow drive)
+    {
+        bool isCoupled = false;
+        foreach (CoordinateCoupling? coupling in _batch.Couplings)
+        {
+            for (int i = 0; coupling != null && i < coupling.AnglesAmongOthers.Length; i++)
+            {
+                isCoupled |= coupling.Coordinates[coupling.AnglesAmongOthers[i]].Joint == _batch.Models[drive.Block];
+            }
+        }
+
+        return isCoupled;
     }
 
     // A drive that gave all it has and what stopped it hold each other by far more than they have to. As a guess that would stay, since rows that agree ask

@@ -324,12 +324,17 @@ def _further(
     return state, block_freedoms(solver, state)
 
 
-def _survivors(solver: Solver, part: int, freedom: BlockFreedom, state: State, step: float = STEP) -> Array:
-    """Orthonormal directions that trial steps both ways keep, shape (6 n, m)."""
-    if not freedom.basis.shape[1]:
-        return np.zeros((len(freedom.bodies) * 6, 0))
-    ways, share, _ = kept_of(solver, part, freedom, state, step)
-    return ways[:, share > DIRECTION]
+def _survivors(solver: Solver, part: int, freedom: BlockFreedom, state: State) -> Array:
+    """Orthonormal directions that trial steps both ways keep, shape (6 n, m): of the first size of steps that leaves none in doubt,
+    since noise hides in a small one what obstructs a direction; of the smallest where all do."""
+    found: Array | None = None
+    for step in PROBES if freedom.mobility else ():
+        ways, share, _ = kept_of(solver, part, freedom, state, step)
+        kept = ways[:, share > DIRECTION]
+        found = kept if found is None else found
+        if not np.any((share > DIRECTION) & (share < WHOLE)):
+            return kept
+    return np.zeros((len(freedom.bodies) * 6, 0)) if found is None else found
 
 
 def _sampled(solver: Solver, part: int, freedom: BlockFreedom, state: State) -> Array | None:

@@ -144,7 +144,7 @@ internal sealed class JsonWriter
         {
             if (reader.Token == JsonToken.String)
                 Value(TextOf(reader));
-            else if (reader.Token == JsonToken.Number && reader.Value.IndexOfAny((byte)'.', (byte)'e', (byte)'E') >= 0 && reader.GetDouble() is double number && !double.IsInfinity(number))
+            else if (reader.Token == JsonToken.Number && reader.GetDouble() is double number && (double.IsInfinity(number) || reader.Value.IndexOfAny((byte)'.', (byte)'e', (byte)'E') >= 0))
                 Value(number);
             else
             {

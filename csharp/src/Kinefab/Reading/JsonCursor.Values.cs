@@ -272,8 +272,26 @@ internal ref partial struct JsonCursor
         }
 
         int start = reader.TokenStart;
-        reader.Skip();
+        PassOver();
         return Encoding.UTF8.GetString(text.Slice(start, reader.Consumed - start));
+    }
+
+    /// <summary>
+    /// Steps over the current value, of a name over that of its field, which nobody here reads: what no program could write again, a number that no 64-bit
+    /// float holds or half of a surrogate pair, is reported there too (RFC 7493 has neither).
+    /// </summary>
+    private void PassOver()
+    {
+        int depth = 0;
+        do
+        {
+            if (reader.Token == JsonToken.Number && double.IsInfinity(reader.GetDouble()))
+                Report(DiagnosticCodes.NumberNotFinite, ("number", TokenText()));
+            else if (reader.Token is JsonToken.String or JsonToken.PropertyName && !reader.TryGetString(out _))
+                Report(DiagnosticCodes.JsonStringInvalid);
+            depth += reader.Token is JsonToken.StartObject or JsonToken.StartArray ? 1 : reader.Token is JsonToken.EndObject or JsonToken.EndArray ? -1 : 0;
+        }
+        while ((depth > 0 || reader.Token == JsonToken.PropertyName) && reader.Read());
     }
 
     private static T[] Grow<T>(T[] full)

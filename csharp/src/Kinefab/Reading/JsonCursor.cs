@@ -85,7 +85,7 @@ internal ref partial struct JsonCursor
                 findings.AddAt(Offset, unknownFields, DiagnosticCodes.FieldUnknown, ("field", TokenText()));
             else
                 findings.AddAt(Offset, DiagnosticCodes.FieldDuplicate, ("field", fields.Names[index]));
-            reader.Skip();
+            PassOver();
         }
 
         if ((fields.Seen & fields.Names.Required) != fields.Names.Required)

@@ -199,6 +199,8 @@ public class SceneSavingTests
             new SceneDocument { ExtrasJson = "{" },
             new SceneDocument { ExtrasJson = "{} {}" },
             new SceneDocument { ExtrasJson = "" },
+            new SceneDocument { ExtrasJson = """{"a": [1e400]}""" },
+            new SceneDocument { ExtrasJson = """{"a": "\ud800"}""" },
             new SceneDocument { Generator = new Generator { Name = "\ud800" } },
         })
             Assert.That(() => SceneFile.Save(scene, path), Throws.InstanceOf<ArgumentException>());

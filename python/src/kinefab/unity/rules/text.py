@@ -141,7 +141,7 @@ def _offset_of_constant(text: str) -> int:
 
 
 def _tell_endless(value: object, found: Findings) -> None:
-    """In extras too, which C# keeps as text: written again they would be no JSON."""
+    """In extras too: written again they would be no JSON."""
     for pointer, inner in leaves(value):
         if isinstance(inner, float) and math.isinf(inner):
             found.add("NUMBER_NOT_FINITE", pointer, number=inner)

@@ -42,7 +42,29 @@ namespace UnityEditor
         {
         }
 
+        /// <summary>How often the project was looked through.</summary>
+        internal static int Refreshed { get; private set; }
+
+        public static void Refresh() => Refreshed++;
+
+        public static bool IsAssetImportWorkerProcess() => false;
+
         public static void RegisterCustomDependency(string dependency, Hash128 hashOfValue) => Dependencies[dependency] = hashOfValue;
+    }
+
+    public sealed class EditorApplication
+    {
+        public delegate void CallbackFunction();
+
+        /// <summary>Called once, when the editor has time.</summary>
+        public static CallbackFunction delayCall { get; set; }
+
+        internal static void Idle()
+        {
+            CallbackFunction calls = delayCall;
+            delayCall = null;
+            calls?.Invoke();
+        }
     }
 
     [Flags]

@@ -318,6 +318,6 @@ namespace UnityEngine
     {
         public static bool isPlaying { get; internal set; }
 
-        public static string unityVersion => "6000.7.0a1";
+        public static string unityVersion { get; internal set; } = "6000.7.0a1";
     }
 }

@@ -62,7 +62,7 @@ namespace KinefabUnity.Editing
 
         private void Import(AssetImportContext ctx, List<KinefabFinding> findings)
         {
-            ctx.DependsOnCustomDependency(PipelineDependency.Name);
+            ctx.DependsOnCustomDependency(ProjectDependency.Name);
             Doc.SceneReading reading = Doc.SceneFile.Load(FileUtil.GetPhysicalPath(ctx.assetPath));
             foreach (string beside in ImportedFile.Beside(ctx.assetPath, reading.Document))
             {

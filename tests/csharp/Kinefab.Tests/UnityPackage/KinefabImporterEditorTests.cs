@@ -31,6 +31,32 @@ public sealed class KinefabImporterEditorTests
         Assert.That(EditorGUILayout.Shown, Has.Some.StartsWith("Warning: UNITY_JOINT_OF_WORLD").And.Some.Contains("KinefabScene.Instantiate"));
     }
 
+    // Gravity, time step and iterations are the project's, so that a mechanism may move otherwise than it was exported for.
+    [Test]
+    public void Inspector_OfAnAsset_SetsTheProjectToWhatTheFileWasMadeFor()
+    {
+        using var scene = new EditedScene();
+        scene.Save(json => json["physics"] = new JsonObject { ["gravity"] = new JsonArray(0, -1.62, 0), ["fixedTimestep"] = 0.01, ["solverIterations"] = 12 });
+        ImportedAsset asset = ImportedAsset.Of(scene.Scene);
+        AssetDatabase.Assets[scene.Scene] = [.. asset.Context.Objects.Values];
+        (Unity.Vector3 Gravity, int Iterations, float Step) before = (Unity.Physics.gravity, Unity.Physics.defaultSolverIterations, Unity.Time.fixedDeltaTime);
+        try
+        {
+            Show(asset.Importer);
+            Assert.That(EditorGUILayout.Shown, Has.Some.Contains("gravity (0, -1.62, 0), time step 0.01 s, 12 and 1 solver iterations"));
+            Assert.That(Unity.Physics.gravity.y, Is.EqualTo(before.Gravity.y));
+            Unity.GUILayout.Pressed = "Use These in This Project";
+            Show(asset.Importer);
+            Assert.That((Unity.Physics.gravity.y, Unity.Physics.defaultSolverIterations, Unity.Time.fixedDeltaTime), Is.EqualTo((-1.62f, 12, 0.01f)));
+            Assert.That(asset.Root.GetComponent<KinefabMechanism>().Source, Is.SameAs(asset.Source));
+        }
+        finally
+        {
+            Unity.GUILayout.Pressed = null;
+            (Unity.Physics.gravity, Unity.Physics.defaultSolverIterations, Unity.Time.fixedDeltaTime) = before;
+        }
+    }
+
     [Test]
     public void Inspector_OfAFaultyFile_ShowsItsErrors()
     {

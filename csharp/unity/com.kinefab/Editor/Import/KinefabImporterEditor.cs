@@ -12,8 +12,10 @@ namespace KinefabUnity.Editing
     [CustomEditor(typeof(KinefabImporter))]
     public sealed class KinefabImporterEditor : ScriptedImporterEditor
     {
+        private const string UseWorld = "Use These in This Project";
+
         private List<KinefabFinding> findings;
-        private string exported;
+        private string exported, world;
         private bool showsMaterials, showsFindings = true;
 
         /// <summary>Of Unity.</summary>
@@ -52,18 +54,26 @@ namespace KinefabUnity.Editing
             return found;
         }
 
-        // What "As Exported" is of this file.
+        // What "As Exported" is of this file, and the world that its mechanism was made for, which no prefab brings.
         private void Physics(KinefabImporter importer)
         {
-            if (exported == null)
+            KinefabSource source = AssetDatabase.LoadAssetAtPath<KinefabSource>(importer.assetPath);
+            if (source == null)
             {
-                KinefabSource source = AssetDatabase.LoadAssetAtPath<KinefabSource>(importer.assetPath);
-                exported = source == null ? "" : source.DescribePhysics();
+                return;
             }
 
+            exported = exported ?? source.DescribePhysics();
             if (exported.Length > 0)
             {
                 EditorGUILayout.HelpBox($"The file has {exported}.", MessageType.None);
+            }
+
+            world = world ?? source.DescribeWorld();
+            EditorGUILayout.HelpBox($"Made for {world}.", MessageType.None);
+            if (GUILayout.Button(UseWorld))
+            {
+                source.ApplyProjectSettings();
             }
         }
 

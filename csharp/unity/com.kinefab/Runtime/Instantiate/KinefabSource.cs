@@ -82,6 +82,14 @@ namespace KinefabUnity
         /// <summary>What the file was exported with: 12 Rigidbodies and 14 joints.</summary>
         internal string DescribePhysics() => Doc.SceneFile.Parse(text).Document is Doc.SceneDocument document ? PhysicsOfFile.Describe(document) : "";
 
+        /// <summary>What <see cref="ApplyProjectSettings"/> sets: gravity (0, -9.81, 0), time step 0.02 s, 6 and 1 solver iterations.</summary>
+        internal string DescribeWorld()
+        {
+            Doc.Physics from = Load().Document.Physics;
+            return System.FormattableString.Invariant(
+                $"gravity ({from.Gravity.X}, {from.Gravity.Y}, {from.Gravity.Z}), time step {from.FixedTimestep} s, {from.SolverIterations} and {from.SolverVelocityIterations} solver iterations");
+        }
+
         private static Doc.SceneDocument Bare(Doc.SceneDocument document)
         {
             var objects = new List<Doc.GameObject>(document.GameObjects.Count);

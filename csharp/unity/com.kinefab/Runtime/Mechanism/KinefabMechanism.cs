@@ -63,6 +63,9 @@ namespace KinefabUnity
         /// <summary>Why nothing moves, for people; empty: all is well.</summary>
         public string Problem => _fault ?? problem;
 
+        /// <summary>What it was made of: what was found about the file, and the project settings that it was made for; null: it is gone.</summary>
+        public KinefabSource Source => source;
+
         /// <summary>What came of the last drive or drag.</summary>
         public KinefabResult Last { get; private set; }
 

@@ -18,6 +18,9 @@ namespace KinefabUnity
         [SerializeField, HideInInspector]
         private KinefabPhysics physics = KinefabPhysics.AsExported;
 
+        [SerializeField, HideInInspector]
+        private string version = "";
+
         [SerializeField]
         private KinefabFinding[] findings = new KinefabFinding[0];
 
@@ -45,6 +48,7 @@ namespace KinefabUnity
             source.text = WithoutBuffers(text);
             source.ground = settings.ground;
             source.physics = settings.physics;
+            source.version = $"{Digest.Of(source.text)} {settings.physics} {settings.ground}";
             return source;
         }
 
@@ -61,6 +65,9 @@ namespace KinefabUnity
             bool isWhole = length >= 0 && length <= file.Length - Head - ChunkHead;
             return isWhole ? new System.ReadOnlySpan<byte>(file, Head + ChunkHead, length).ToArray() : file;
         }
+
+        /// <summary>Another one where the mechanism may be another.</summary>
+        internal string Version => version;
 
         internal void Tell(List<KinefabFinding> found) => findings = found.ToArray();
 

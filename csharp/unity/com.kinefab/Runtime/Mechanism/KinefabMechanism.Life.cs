@@ -1,5 +1,5 @@
 using System;
-using Kinefab.Validation;
+using Kinefab.Kinematics;
 using UnityEngine;
 
 namespace KinefabUnity
@@ -18,6 +18,7 @@ namespace KinefabUnity
             _packedMoves = _motion.Moves;
             pose = _motion.Pack();
             values = Array.ConvertAll(freedoms, freedom => _motion.Value(freedom.Coordinate));
+            valuesOf = Array.ConvertAll(freedoms, freedom => freedom.FullName);
         }
 
         /// <summary>Unity calls it after it has read the component, also after Undo.</summary>
@@ -28,7 +29,7 @@ namespace KinefabUnity
         {
             if (_motion != null && _isStale)
             {
-                Restore();
+                IsReady();
             }
         }
 #endif
@@ -87,7 +88,7 @@ namespace KinefabUnity
 
         // Without a domain reload Unity keeps statics from one play to the next.
         [RuntimeInitializeOnLoadMethod(RuntimeInitializeLoadType.SubsystemRegistration)]
-        private static void Reset() => Enabled.Clear();
+        private static void ClearEnabled() => Enabled.Clear();
 
         // The solver or the drives get hold of the parts.
         private void Take()
@@ -150,46 +151,71 @@ namespace KinefabUnity
             }
         }
 
-        // Reads the scene when it is first needed; a fault is told once and stays.
+        // Reads the scene when it is first needed, and again when its file was imported anew: a prefab's instance in an open scene gets
+        // the new parts then, and keeps all that is not serialized. A fault is told once and stays until then.
         private bool IsReady()
         {
-            if (_motion != null)
+            string version = source == null ? "" : source.Version;
+            if (!string.Equals(version, _version, StringComparison.Ordinal))
             {
-                if (_isStale)
-                {
-                    Restore();
-                }
-
-                return true;
+                Read(version);
+            }
+            else if (_isStale && _motion != null)
+            {
+                Restore();
             }
 
-            if (_fault != null)
+            return _motion != null;
+        }
+
+        private void Read(string version)
+        {
+            bool isHeld = _placement != null && isActiveAndEnabled && Application.isPlaying;
+            if (isHeld)
             {
-                return false;
+                Release();
+                _isLetGo = false; // where the old mechanism's parts stand tells nothing about the new one
             }
 
+            Forget();
+            _version = version;
+            if (source == null)
+            {
+                _fault = "The scene is missing: import the .kinefab file again.";
+                return;
+            }
+
+            MotionState motion;
             try
             {
-                if (source == null)
-                {
-                    _fault = "The scene is missing: import the .kinefab file again.";
-                    return false;
-                }
-
-                ValidScene scene = source.Load();
-                _motion = new MotionState(scene, Array.ConvertAll(freedoms, freedom => freedom.Coordinate));
+                motion = new MotionState(source.Load(), Array.ConvertAll(freedoms, freedom => freedom.Coordinate));
             }
             catch (Kinefab.Diagnostics.SceneFormatException fault)
             {
                 _fault = fault.Message;
                 Debug.LogError(fault.Message, this);
-                return false;
+                return;
             }
 
+            if (!IsOf(motion.Mechanism))
+            {
+                _fault = "The .kinefab file has other parts or joints than when this object was made of it: put the file's asset into the scene in its place.";
+                return;
+            }
+
+            _motion = motion;
             _placement = new PartPlacement(transform, parts, _motion);
             Restore();
-            return true;
+            if (isHeld)
+            {
+                Take();
+            }
         }
+
+        // Of an unpacked prefab the parts stay those of the file that there was.
+        private bool IsOf(Mechanism mechanism) =>
+            parts.Length == mechanism.Scene.Document.GameObjects.Count
+            && Array.TrueForAll(freedoms, own => own.Coordinate < mechanism.Coordinates.Count && mechanism.Coordinates[own.Coordinate].Name == own.FullName);
 
         private void Restore()
         {
@@ -203,11 +229,11 @@ namespace KinefabUnity
             }
             else if (!_motion.TryUnpack(pose))
             {
-                // The file has changed since: as near as the new mechanism gets.
+                // The file has changed since: as near as the new mechanism gets. Its freedoms may be others, or stand in another order.
                 _motion.GoHome();
-                if (values.Length == freedoms.Length && Array.TrueForAll(values, value => !double.IsNaN(value) && !double.IsInfinity(value)))
+                if (values.Length == valuesOf.Length && Array.TrueForAll(values, value => !double.IsNaN(value) && !double.IsInfinity(value)))
                 {
-                    _motion.Set(values);
+                    _motion.Set(valuesOf, values);
                 }
 
                 _placement.Place(bodiesToo: !Application.isPlaying);
@@ -223,6 +249,7 @@ namespace KinefabUnity
             _placement = null;
             _targets = null;
             _fault = null;
+            _version = null;
             _isStale = false;
             _packedMoves = 0;
         }

@@ -42,11 +42,13 @@ namespace KinefabUnity
         [SerializeField] private KinefabMover mover = KinefabMover.Exact;
         [SerializeField] private string pose = "";
         [SerializeField] private double[] values = Array.Empty<double>();
+        [SerializeField] private string[] valuesOf = Array.Empty<string>();
 
         [NonSerialized] private MotionState _motion;
         [NonSerialized] private PartPlacement _placement;
         [NonSerialized] private JointTargets _targets;
         [NonSerialized] private string _fault;
+        [NonSerialized] private string _version;
         [NonSerialized] private int _packedMoves;
         [NonSerialized] private Transform[] _placesOf;
         [NonSerialized] private bool _isStale;

@@ -1,4 +1,5 @@
 using System;
+using System.Collections.Generic;
 using Kinefab.Kinematics;
 using Kinefab.Numerics;
 using Kinefab.Validation;
@@ -65,6 +66,25 @@ namespace KinefabUnity
 
             Moves++;
             return Told(_solver.Drive(State, _targets), KinefabStop.DeadPoint);
+        }
+
+        /// <summary>Moves coordinates together, those that there are.</summary>
+        /// <param name="fullNames">Lever/Crank:1.angle.</param>
+        /// <param name="shown">One for each, as the source shows it.</param>
+        public void Set(string[] fullNames, double[] shown)
+        {
+            var targets = new List<CoordinateTarget>();
+            for (int i = 0; i < Mechanism.Coordinates.Count; i++)
+            {
+                int at = Array.IndexOf(fullNames, Mechanism.Coordinates[i].Name);
+                if (at >= 0)
+                {
+                    targets.Add(new CoordinateTarget(i, Mechanism.Coordinates[i].FromCad(shown[at])));
+                }
+            }
+
+            Moves++;
+            _solver.Drive(State, targets.ToArray());
         }
 
         /// <summary>Pulls a point of a GameObject to a place.</summary>

@@ -148,6 +148,7 @@ namespace UnityEngine
             if (Time.timeScale > 0)
             {
                 Each(b => Calls.Of(b, "FixedUpdate"));
+                Physics.SyncTransforms();
                 Time.time += Time.fixedDeltaTime * Time.timeScale;
             }
 
@@ -184,6 +185,36 @@ namespace UnityEngine
         /// <summary>Wakes, enables and disables what has changed at an object and below it.</summary>
         internal static void Renew(GameObject of)
         {
+            if (!Copies.IsCopying)
+            {
+                Bodies(of);
+                Joints(of);
+                Scripts(of);
+            }
+        }
+
+        private static void Bodies(GameObject of)
+        {
+            if (of.GetComponent<Rigidbody>() is Rigidbody body && (body.InPhysics != null) != of.activeInHierarchy)
+            {
+                body.Sync();
+            }
+
+            Below(of, Bodies);
+        }
+
+        private static void Joints(GameObject of)
+        {
+            foreach (Joint joint in of.GetComponents<Joint>())
+            {
+                joint.Renew();
+            }
+
+            Below(of, Joints);
+        }
+
+        private static void Scripts(GameObject of)
+        {
             foreach (Component component in of.Components.ToArray())
             {
                 if (component is MonoBehaviour behaviour)
@@ -192,11 +223,16 @@ namespace UnityEngine
                 }
             }
 
+            Below(of, Scripts);
+        }
+
+        private static void Below(GameObject of, Action<GameObject> call)
+        {
             if (of.transform != null)
             {
                 foreach (Transform child in of.transform.Children.ToArray())
                 {
-                    Renew(child.gameObject);
+                    call(child.gameObject);
                 }
             }
         }
@@ -206,7 +242,7 @@ namespace UnityEngine
         private static void Renew(MonoBehaviour behaviour)
         {
             bool runs = Application.isPlaying || behaviour.GetType().IsDefined(typeof(ExecuteAlways), inherit: true);
-            if (!runs || Copies.IsCopying)
+            if (!runs)
             {
                 return;
             }

@@ -1,4 +1,5 @@
 using System;
+using System.Collections.Generic;
 
 namespace UnityEngine
 {
@@ -36,6 +37,17 @@ namespace UnityEngine
     {
         /// <summary>Its Transform was set after the body was there: PhysX made it at another place.</summary>
         internal bool MovedAfterMade { get; set; }
+
+        /// <summary>Where PhysX has it; null: it is switched off.</summary>
+        internal (Vector3 Position, Quaternion Rotation)? InPhysics { get; private set; }
+
+        internal void Sync()
+        {
+            if (!IsDestroyed)
+            {
+                InPhysics = gameObject.activeInHierarchy ? ((Vector3, Quaternion)?)(transform.position, transform.rotation) : null;
+            }
+        }
 
         private Vector3 _inertiaTensor = new Vector3(1, 1, 1);
 
@@ -101,6 +113,19 @@ namespace UnityEngine
         public static IntegrationInfo GetCurrentIntegrationInfo() => Integration;
 
 #endif
+        /// <summary>Bodies whose Transforms were put elsewhere since PhysX was last told.</summary>
+        internal static readonly HashSet<Rigidbody> Unsynced = new HashSet<Rigidbody>();
+
+        public static void SyncTransforms()
+        {
+            foreach (Rigidbody body in Unsynced)
+            {
+                body.Sync();
+            }
+
+            Unsynced.Clear();
+        }
+
         public static Vector3 gravity { get; set; } = new Vector3(0, -9.81f, 0);
 
         public static float bounceThreshold { get; set; } = 2;

@@ -149,6 +149,29 @@ namespace UnityEngine
 
         internal void Made() => Configure();
 
+        /// <summary>Pose of its body against the connected one, as PhysX had them when it made the joint; null: it has none.</summary>
+        internal (Vector3 Position, Quaternion Rotation)? MadeAt { get; private set; }
+
+        /// <summary>PhysX makes a joint when its object is switched on, and gives it up with it.</summary>
+        internal void Renew()
+        {
+            if (!gameObject.activeInHierarchy)
+            {
+                MadeAt = null;
+            }
+            else if (MadeAt == null)
+            {
+                (Vector3 at, Quaternion turn) = (Vector3.zero, Quaternion.identity);
+                if (_connectedBody != null)
+                {
+                    (at, turn) = _connectedBody.InPhysics ?? (_connectedBody.transform.position, _connectedBody.transform.rotation);
+                }
+
+                Quaternion back = Quaternion.Inverse(turn);
+                MadeAt = (back * (transform.position - at), back * transform.rotation);
+            }
+        }
+
         // Unity works the anchor out where it is asked to, whatever was set before: where the own anchor stands, seen from the connected body.
         private void Configure()
         {

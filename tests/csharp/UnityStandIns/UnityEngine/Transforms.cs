@@ -174,6 +174,21 @@ namespace UnityEngine
                     body.MovedAfterMade = true;
                 }
             }
+
+            Unsync();
+        }
+
+        private void Unsync()
+        {
+            if (gameObject.GetComponent<Rigidbody>() is Rigidbody body)
+            {
+                Physics.Unsynced.Add(body);
+            }
+
+            for (int i = 0; i < Children.Count; i++)
+            {
+                Children[i].Unsync();
+            }
         }
     }
 }

@@ -27,38 +27,17 @@ namespace KinefabUnity
             foreach (KinefabFreedom freedom in freedoms)
             {
                 MechanismCoordinate coordinate = mechanism.Coordinates[freedom.Coordinate];
-                Transform part = coordinate.GameObject < parts.Length ? parts[coordinate.GameObject] : null;
-                if (part == null)
+                Component found = JointComponents.Of(mechanism, coordinate, parts);
+                if (found is ArticulationBody link)
                 {
-                    continue;
+                    Add(freedom.Coordinate, coordinate.Coordinate, link, LinkPositions.Home(mechanism, coordinate));
                 }
-
-                Doc.GameObject from = mechanism.Scene.Document.GameObjects[coordinate.GameObject];
-                if (from.Components[coordinate.Component] is Doc.ArticulationBody)
+                else if (found is Joint joint)
                 {
-                    ArticulationBody link = part.GetComponent<ArticulationBody>();
-                    if (link != null)
-                    {
-                        Add(freedom.Coordinate, coordinate.Coordinate, link, LinkPositions.Home(mechanism, coordinate));
-                        continue;
-                    }
-                }
-
-                // A link that was imported as a joint has it in its own place.
-                bool isLinkJoint = part.GetComponent<ArticulationBody>() == null && !mechanism.Scene.IsRootLink(coordinate.GameObject);
-                int number = 0;
-                for (int i = 0; i < coordinate.Component; i++)
-                {
-                    number += from.Components[i] is Doc.Joint || (isLinkJoint && from.Components[i] is Doc.ArticulationBody) ? 1 : 0;
-                }
-
-                Joint[] joints = part.GetComponents<Joint>();
-                if (number < joints.Length)
-                {
-                    double zero = coordinate.Coordinate <= Doc.Coordinate.Z && !(from.Components[coordinate.Component] is Doc.HingeJoint)
+                    double zero = coordinate.Coordinate <= Doc.Coordinate.Z && !(joint is HingeJoint)
                         ? mechanism.Scene.AnchorGap(coordinate.GameObject, coordinate.Component)[coordinate.Coordinate - Doc.Coordinate.X]
                         : 0;
-                    Add(freedom.Coordinate, coordinate.Coordinate, joints[number], zero);
+                    Add(freedom.Coordinate, coordinate.Coordinate, joint, zero);
                 }
             }
         }

@@ -45,9 +45,9 @@ namespace KinefabUnity
 
         private void Start()
         {
-            if (Application.isPlaying && pose.Length > 0 && IsReady() && _placement.HasBodies)
+            if (Application.isPlaying && pose.Length > 0)
             {
-                _placement.RemakeJoints(_motion.Home);
+                RemakeJoints();
             }
         }
 
@@ -56,6 +56,7 @@ namespace KinefabUnity
             Enabled.Remove(this);
             if (Application.isPlaying)
             {
+                _wasSwitchedOff = !gameObject.activeInHierarchy;
                 Release();
             }
         }
@@ -65,6 +66,13 @@ namespace KinefabUnity
             if (!Application.isPlaying || _placement == null)
             {
                 return;
+            }
+
+            if (_wasSwitchedOff)
+            {
+                // Not in OnEnable: Unity switches nothing on or off below an object that it is just switching on.
+                _wasSwitchedOff = false;
+                RemakeJoints();
             }
 
             if (mover == KinefabMover.Exact)
@@ -89,6 +97,14 @@ namespace KinefabUnity
         // Without a domain reload Unity keeps statics from one play to the next.
         [RuntimeInitializeOnLoadMethod(RuntimeInitializeLoadType.SubsystemRegistration)]
         private static void ClearEnabled() => Enabled.Clear();
+
+        private void RemakeJoints()
+        {
+            if (IsReady() && _placement.HasBodies)
+            {
+                _placement.RemakeJoints(_motion.Home);
+            }
+        }
 
         // The solver or the drives get hold of the parts.
         private void Take()

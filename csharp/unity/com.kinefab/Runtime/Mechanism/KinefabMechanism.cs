@@ -53,6 +53,7 @@ namespace KinefabUnity
         [NonSerialized] private Transform[] _placesOf;
         [NonSerialized] private bool _isStale;
         [NonSerialized] private bool _isLetGo;
+        [NonSerialized] private bool _wasSwitchedOff;
         [NonSerialized] private KinefabStop _lastStop;
         [NonSerialized] private string _lastLimit;
 

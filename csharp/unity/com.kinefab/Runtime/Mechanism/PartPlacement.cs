@@ -18,11 +18,13 @@ namespace KinefabUnity
     {
         private readonly MotionState _motion;
         private readonly Transform _root;
+        private readonly Transform[] _objects;
         private readonly Part[] _parts;
         private readonly LinkPositions _links;
         private readonly int[] _gameObjects;
         private readonly Pose[] _poses;
         private readonly List<KinefabCoupling> _couplings = new List<KinefabCoupling>();
+        private Dictionary<(Component Joint, KinefabCoupling.Coordinate Coordinate), int> _coordinates;
         private int _steppedMoves;
         private bool _hasMoved;
         private float _lastStep;
@@ -31,6 +33,7 @@ namespace KinefabUnity
         {
             _motion = motion;
             _root = root;
+            _objects = parts;
             Mechanism mechanism = motion.Mechanism;
             ValidScene scene = mechanism.Scene;
             var found = new List<Part>();
@@ -143,6 +146,7 @@ namespace KinefabUnity
                 if (coupling != null)
                 {
                     coupling.enabled = true;
+                    coupling.TakeTurns(Turned);
                 }
             }
 
@@ -166,16 +170,23 @@ namespace KinefabUnity
 
         /// <summary>
         /// Makes the joints anew at the exported pose: PhysX counts a joint's angles and limits from where its body stood when the joint was
-        /// made, and a scene may have been stored with the mechanism moved. That a part that is switched off and on makes its joints anew
-        /// is what others saw in the editor, not seen here.
+        /// made, and a scene may have been stored, or its objects switched off and on, with the mechanism moved. That a part that is switched
+        /// off and on makes its joints anew is what others saw in the editor, not seen here.
         /// </summary>
         public void RemakeJoints(MechanismState home)
         {
             var off = new List<GameObject>();
+            var stood = new (Vector3 Position, Quaternion Rotation)[_parts.Length];
             for (int i = 0; i < _parts.Length; i++)
             {
                 Transform at = _parts[i].Transform;
-                if (at != null && at.gameObject.activeSelf && at.GetComponent<Joint>() != null)
+                if (at == null)
+                {
+                    continue;
+                }
+
+                stood[i] = (at.localPosition, at.localRotation);
+                if (at.gameObject.activeSelf && at.GetComponent<Joint>() != null)
                 {
                     off.Add(at.gameObject);
                 }
@@ -191,7 +202,16 @@ namespace KinefabUnity
                 part.SetActive(false);
             }
 
-            PutAll(home);
+            for (int i = 0; i < _parts.Length; i++)
+            {
+                if (_parts[i].Transform != null && _parts[i].Link == null)
+                {
+                    Put(_parts[i], home);
+                }
+            }
+
+            // A body that a joint hangs on, and that has none of its own, is told of its place only by the next physics step else.
+            Physics.SyncTransforms();
             foreach (GameObject part in off)
             {
                 part.SetActive(true);
@@ -200,9 +220,17 @@ namespace KinefabUnity
             foreach (KinefabCoupling coupling in _root.GetComponentsInChildren<KinefabCoupling>(true))
             {
                 coupling.TakeZero();
+                coupling.TakeTurns(Turned);
             }
 
-            PutAll(_motion.State);
+            for (int i = 0; i < _parts.Length; i++)
+            {
+                if (_parts[i].Transform != null && _parts[i].Link == null)
+                {
+                    _parts[i].Transform.localPosition = stood[i].Position;
+                    _parts[i].Transform.localRotation = stood[i].Rotation;
+                }
+            }
         }
 
         /// <summary>Reads the state off the parts.</summary>
@@ -238,15 +266,29 @@ namespace KinefabUnity
             }
         }
 
-        private void PutAll(MechanismState state)
+        // Where the state has a coordinate as its joint or link counts it, over whole turns.
+        private double? Turned(Component joint, KinefabCoupling.Coordinate coordinate)
         {
-            for (int i = 0; i < _parts.Length; i++)
+            Mechanism mechanism = _motion.Mechanism;
+            if (_coordinates == null)
             {
-                if (_parts[i].Transform != null && _parts[i].Link == null)
+                _coordinates = new Dictionary<(Component, KinefabCoupling.Coordinate), int>();
+                for (int i = 0; i < mechanism.Coordinates.Count; i++)
                 {
-                    Put(_parts[i], state);
+                    if (JointComponents.Of(mechanism, mechanism.Coordinates[i], _objects) is Component found && found != null)
+                    {
+                        _coordinates[(found, (KinefabCoupling.Coordinate)mechanism.Coordinates[i].Coordinate)] = i;
+                    }
                 }
             }
+
+            if (!_coordinates.TryGetValue((joint, coordinate), out int index) || !mechanism.Coordinates[index].IsAngle)
+            {
+                return null;
+            }
+
+            double home = joint is ArticulationBody ? LinkPositions.Home(mechanism, mechanism.Coordinates[index]) * 180 / Math.PI : 0;
+            return home + _motion.State.Coordinate(index);
         }
 
         private void Put(in Part part, MechanismState state)

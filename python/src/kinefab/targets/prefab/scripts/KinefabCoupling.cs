@@ -98,6 +98,17 @@ namespace Kinefab
             Prepare();
         }
 
+        /// <summary>Tells how far its coordinates have turned while it was off, or before it was there: whole turns show in no pose.</summary>
+        /// <param name="about">Degrees of a coordinate of a joint or a link, to half a turn; null: it is as it was.</param>
+        public void TakeTurns(Func<Component, Coordinate, double?> about)
+        {
+            if (_isReady)
+            {
+                _driven.TakeTurns(about);
+                Array.ForEach(_terms, t => t.TakeTurns(about));
+            }
+        }
+
         private bool IsThere => driven != null || drivenArticulationBody != null;
 
         private void Prepare()
@@ -403,6 +414,11 @@ namespace Kinefab
             public double Zero => _zero;
 
             public bool Reads(Joint joint, ArticulationBody link, Coordinate coordinate) => _joint == joint && _link == link && _coordinate == coordinate;
+
+            public void TakeTurns(Func<Component, Coordinate, double?> about)
+            {
+                _last = about(_joint != null ? (Component)_joint : _link, _coordinate) ?? _last;
+            }
 
             /// <summary>A value as the link's own position has it, which is known within two turns.</summary>
             public double InPosition(double value) => value + Position() - Value();

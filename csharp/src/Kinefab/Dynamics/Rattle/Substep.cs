@@ -9,29 +9,32 @@ namespace Kinefab.Dynamics.Rattle;
 /// </summary>
 internal sealed class Substep
 {
-    // Blows in a part, after which the rest of it is taken at once, limits held from its start on, as where a body rattles in a gap.
+    // Blows (impacts at a limit) in a part. After so many, as where a body rattles in a gap, the rest of the part is taken in one piece, with its
+    // limits held from its start on.
     private const int MaxBlows = 12;
 
+    // Lengths that are tried in search of the one that ends at a limit.
     private const int MaxTrials = 16;
 
-    // Of a part: a limit that is struck again within less is at rest from then on. What it was thrown up by is the square of that share of what a
-    // body falls in the part, over 8.
+    // Share of a part: a limit that is struck again sooner than that is rested on from then on. The bounce that is lost is no higher than
+    // g (LeastFlight h)^2 / 8.
     private const double LeastFlight = 0.1;
 
-    // Trials of which none may stand before the limit: it is passed from the start on. Not one that has no row there, in its middle, nor a slide's other end.
+    // Trials. Where none of so many ends before the limit, every drift passes it, however short, and it is held from the piece's start on. That is
+    // said of no limit without a row there, as in the middle of its range, and not of a slide's other end.
     private const int MostLate = 3;
 
-    // A piece up to a leap is worth its cost from this share of the drift on.
+    // Where a drift leaps over a limit from one length to the next, the piece up to the leap is worth its cost from this share of the drift on.
     private const double LeastSure = 0.05;
 
-    // C of a limit, in tolerances, down to and up to which a drift has reached it.
+    // A drift has reached a limit whose C it ends with, in tolerances, is between -MostPassed and MostShort.
     private const double MostPassed = ActiveSet<ScalarLane>.MostPassed;
     private const double MostShort = 5;
 
     // Tolerances by which an angle of an exact loop may stay open.
     private const double MostLeftOpen = 100;
 
-    // A piece shorter than this share of the part says little of the impulses of the rest.
+    // The impulses of a piece shorter than this share of the part are no guess for the rest of it.
     private const double LeastTelling = 0.25;
 
     private readonly LaneBatch<ScalarLane> _batch;
@@ -136,8 +139,8 @@ internal sealed class Substep
         }
     }
 
-    // A guess can be worse than none: a damper's impulse, or what came before a blow, told of another motion. A loop that can be closed is: what
-    // its angles are left open by, a later part, of another matrix, closes with the speed of that gap over its own length.
+    // A guess can be worse than none: a damper's impulse, or those from before a blow, belong to another motion. And a loop that can be closed is
+    // closed here: a gap that its angles were left with would be closed by a later part, at the speed of the gap over that part's length.
     private bool TryDriftFromPieceStart(double h, double tolerance)
     {
         if (TryDrift(h, tolerance) && !IsLeftOpen(tolerance))
@@ -156,7 +159,8 @@ internal sealed class Substep
             return false;
         }
 
-        // The true response answers what rows that repeat each other contradict in, far from a closed pose, with impulses without end: not before it has to.
+        // Conjugate gradients on the matrix without its compliance: where rows that repeat each other contradict, far from a closed pose, their
+        // impulses grow without bound, so that it comes last.
         ReturnToPieceStartWithoutGuess();
         return TryDrift(h, tolerance, _conjugateGradient);
     }

@@ -55,7 +55,7 @@ internal sealed class CoordinateCoupling
         foreach (int i in AnglesAmongOthers)
         {
             Among = i;
-            ((D6Joint)Coordinates[i].Joint).Couple(Coordinates[i].Axis - CoordinateAxis.AngularX, this);
+            ((D6Joint)Coordinates[i].Joint).Couple(Coordinates[i].Axis - CoordinateAxis.AngularX, TryFollowOthers);
         }
     }
 
@@ -93,15 +93,8 @@ internal sealed class CoordinateCoupling
         coordinate.IsAngle && coordinate.Joint is D6Joint joint
         && (joint.Twist != AxisMotion.Locked ? 1 : 0) + (joint.Swing1 != AxisMotion.Locked ? 1 : 0) + (joint.Swing2 != AxisMotion.Locked ? 1 : 0) > 1;
 
-    /// <summary>
-    /// What it says of an angle of a joint all of whose coordinates are angles of that joint too, by the others, where none of them is as near to where it
-    /// has no value. Its gradient and that of the angle itself differ by a multiple of the coupling's own: they ask for the same motion.
-    /// </summary>
-    /// <param name="axis">0, 1 or 2.</param>
-    /// <param name="f">The joint's frames.</param>
-    /// <param name="angle">Of frame 1 against frame 0, radians, with its whole turns.</param>
-    /// <param name="gradient">Its gradient for the angular velocity of frame 1 against frame 0, in the world.</param>
-    public bool TryFollowOthers(int axis, in JointFrames f, out double angle, out Vector3d gradient)
+    /// <inheritdoc cref="D6Joint.AngleByOthers"/>
+    private bool TryFollowOthers(int axis, in JointFrames f, out double angle, out Vector3d gradient)
     {
         angle = 0;
         gradient = Vector3d.Zero;

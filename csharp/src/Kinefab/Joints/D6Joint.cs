@@ -15,13 +15,24 @@ internal sealed class D6Joint : JointModel
     // Half angle of a cone without width, radians, with room for rounding.
     private const double NoConeAngle = 1.0001 * ConeLimit.LeastAngle;
 
+    /// <summary>
+    /// What a coupling says of an angle of a joint all of whose coordinates are angles of that joint too, by the others, where none of them is as near to
+    /// where it has no value. Its gradient and that of the angle itself differ by a multiple of the coupling's own: they ask for the same motion.
+    /// </summary>
+    /// <param name="axis">0, 1 or 2.</param>
+    /// <param name="f">The joint's frames.</param>
+    /// <param name="angle">Of frame 1 against frame 0, radians, with its whole turns.</param>
+    /// <param name="gradient">Its gradient for the angular velocity of frame 1 against frame 0, in the world.</param>
+    /// <returns>False where it says nothing by them.</returns>
+    public delegate bool AngleByOthers(int axis, in JointFrames f, out double angle, out Vector3d gradient);
+
     /// <summary>Motions in PxD6Axis's order: X, Y, Z, twist, swing about Y, swing about Z. All locked at first.</summary>
     public AxisMotion X, Y, Z, Twist, Swing1, Swing2;
 
     public LinearLimit LinearLimit;
 
-    // For each angle the coupling that holds it, so that it has weight at any swing; null without any.
-    private CoordinateCoupling?[]? _couplings;
+    // For each angle what the coupling says that holds it, so that it has weight at any swing; null without any.
+    private AngleByOthers?[]? _couplings;
 
     public AngularLimit TwistLimit;
     public ConeLimit SwingLimit;
@@ -260,8 +271,8 @@ internal sealed class D6Joint : JointModel
 
     /// <summary>Notes that a coupling holds an angle.</summary>
     /// <param name="axis">0, 1 or 2.</param>
-    /// <param name="coupling">The coupling.</param>
-    public void Couple(int axis, CoordinateCoupling coupling) => (_couplings ??= new CoordinateCoupling?[3])[axis] = coupling;
+    /// <param name="coupling">What it says of the angle.</param>
+    public void Couple(int axis, AngleByOthers coupling) => (_couplings ??= new AngleByOthers?[3])[axis] = coupling;
 
     // C = c times the angle about an axis that is left to the goal, by the shorter way, J its gradient, c as of a limit: what is prescribed is met at whatever
     // swing. The torque, of J times it, keeps its limit. An angle that a coupling holds has weight there too; where the coupling is one of the joint's own
@@ -272,8 +283,8 @@ internal sealed class D6Joint : JointModel
         Quaterniond to = DrivePose.Rotation;
         bool isCounted = axis == 0 && !double.IsNaN(DriveTwistAngle);
         double goal = isCounted ? DriveTwistAngle : 2 * Trigonometry.Atan2(to.Vector[axis], to.W), near = isCounted ? LastTwist : goal;
-        CoordinateCoupling? coupling = _couplings?[axis];
-        if (coupling != null && coupling.TryFollowOthers(axis, f, out double followed, out Vector3d others))
+        AngleByOthers? coupling = _couplings?[axis];
+        if (coupling != null && coupling(axis, f, out double followed, out Vector3d others))
         {
             writer.AngularDrive(others, 0, goal - SwingTwist.Nearest(followed, near), drive);
             return;

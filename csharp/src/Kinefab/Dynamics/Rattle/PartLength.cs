@@ -24,10 +24,11 @@ internal struct PartLength
     private int _patience;
     private bool _isJoined;
 
-    /// <param name="halvings">Of the step's longest parts, and of its first.</param>
-    public PartLength(int halvings)
+    /// <param name="least">Halvings of the step's longest parts.</param>
+    /// <param name="halvings">Of its first.</param>
+    public PartLength(int least, int halvings)
     {
-        _least = halvings;
+        _least = least;
         _done = 0;
         _taken = 0;
         _patience = 1;

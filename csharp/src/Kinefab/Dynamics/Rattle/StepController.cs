@@ -13,10 +13,10 @@ internal sealed partial class StepController
     public const int MaxHalvings = 10;
 
     // Halvings after which a part that fails is left to the method that needs no chord.
-    private const int MaxDepth = 12;
+    private const int MaxRattleHalvings = 12;
 
-    // The same where limits and drives act: blows end the long account of energy for which steps keep their parts.
-    private const int MaxEvenHalvings = 6;
+    // The most that steps keep where limits and drives act: blows end the long account of energy for which their parts stay even.
+    private const int MaxKeptHalvings = 6;
 
     // Tries in a step, beside those that it begins with, after which parts that fail are left to the method that needs no chord.
     private const int MostTries = 36;
@@ -60,12 +60,17 @@ internal sealed partial class StepController
     private bool _isAudited;
     private bool _isSingular;
     private bool _wasSingular;
-    private int _firstGainHalvings;
-    private double _firstGain;
+
+    // Of the step up to the next part: energy that came of nothing, J, and what that is of the allowance.
     private double _gain;
     private double _excess;
+
+    // Of the next part: what the longest that was tried gained, J, whether shorter ones gain as much, and whether the last one speaks for a longer one.
+    private int _firstGainHalvings;
+    private double _firstGain;
     private bool _isOfAnyLength;
     private bool _isSmooth;
+
     private EnergyAudit _energy;
     private EnergyLedger _ledger;
     private double _dt;
@@ -226,7 +231,7 @@ internal sealed partial class StepController
     private int TakeParts(int halvings, ref SubstepHistory cut)
     {
         int next = TakeParts(halvings);
-        while (halvings < MostEven && _isAudited && (_excess > MostShares || !CanTakeGain()))
+        while (halvings < MaxKept && _isAudited && (_excess > MostShares || !CanTakeGain()))
         {
             ReturnToStart();
             halvings++;
@@ -277,7 +282,7 @@ internal sealed partial class StepController
         Damp(0);
     }
 
-    private int MostEven => _batch.ActiveSet == null ? MaxHalvings : MaxEvenHalvings;
+    private int MaxKept => _batch.ActiveSet == null ? MaxHalvings : MaxKeptHalvings;
 
     private void Enter(ref EnergyLedger ledger)
     {
@@ -297,12 +302,12 @@ internal sealed partial class StepController
     // What slows a body down to its largest angular speed leaves speeds that the joints forbid, and these go.
     private bool MayLose => _isSingular || _batch.Work.Slowed[0] > 0 || LaneEnergy<ScalarLane>.IsLed(_batch, 0) || _energy.IsSprung || CompliantAngles<ScalarLane>.HaveActed(_batch, 0, _energy.Kinetic) || _batch.ActiveSet is { HasActed: true };
 
-    // At the finest even parts a violent motion on which no scalar row acts may lose energy: nothing below these is better. Were it allowed to lose
+    // In parts as short as steps keep, a violent motion on which no scalar row acts may lose energy: nothing below these is better. Were it allowed to lose
     // at any, while a gain is mended, an energy that swings about its value would be let down step by step. What is left there of a gain the account takes
     // from the speeds.
     private double Excess(in EnergyAudit end, int halvings)
     {
-        bool mayLose = MayLose || halvings >= MostEven;
+        bool mayLose = MayLose || halvings >= MaxKept;
         return end.Excess(_energy, mayLose, mayLose ? MostEnergyGain : MostEnergyChange);
     }
 
@@ -326,14 +331,21 @@ internal sealed partial class StepController
         _isSingular |= _isOfAnyLength && gain < 0 && _batch.Shape.HasJointLoops;
     }
 
-    // The step in parts of so many halvings, the most that are taken as one, and shorter ones where these fail. The halvings of the next step's.
+    // The step in parts of so many halvings, and shorter ones where these fail; where more are asked for than steps keep, longer ones once bodies turn less.
+    // The halvings of the next step's.
     private int TakeParts(int halvings)
     {
-        var length = new PartLength(halvings);
+        int least = Math.Min(halvings, MaxKeptHalvings);
+        var length = new PartLength(least, halvings);
         int mostTries = _part.Tries + MostTries + (1 << halvings);
         bool isOfEnergy = false, isSpent = false;
         while (!length.IsDone && _dampedInStep < MaxDampedSteps)
         {
+            while (halvings > least && length.Halvings < MaxHalvings && StepLimit.Of(_batch, _dt) > 1 << length.Halvings)
+            {
+                length.Halve();
+            }
+
             double h = _dt / (1 << length.Halvings);
             Snapshot start = SavePartStart(length.IsFirst);
             if (!TryPart(h, length.Halvings, out bool hasArrived))
@@ -348,11 +360,11 @@ internal sealed partial class StepController
                 if (!isSpent && _part.Tries >= mostTries)
                 {
                     isSpent = true;
-                    length.Lengthen(MaxEvenHalvings);
+                    length.Lengthen(MaxKeptHalvings);
                     continue;
                 }
 
-                if ((!isSpent && !_isOfAnyLength && length.Halvings < MaxDepth) || !TakeOtherwise(start, h, length.Halvings))
+                if ((!isSpent && !_isOfAnyLength && length.Halvings < MaxRattleHalvings) || !TakeOtherwise(start, h, length.Halvings))
                 {
                     length.Halve();
                     continue;
@@ -366,7 +378,7 @@ internal sealed partial class StepController
         }
 
         // What does not arrive in one place is none of the next step's.
-        return Math.Min(MostEven, length.Fewest == halvings + 1 && !isOfEnergy ? halvings : length.Fewest);
+        return Math.Min(MaxKept, length.Fewest == least + 1 && !isOfEnergy ? least : length.Fewest);
     }
 
     private Snapshot SavePartStart(bool isFirst)
@@ -401,7 +413,7 @@ internal sealed partial class StepController
     private bool TryPart(double h, int halvings, out bool hasArrived)
     {
         _part.SetLength(h);
-        _part.HoldsPassedLimits = halvings >= MaxDepth;
+        _part.HoldsPassedLimits = halvings >= MaxRattleHalvings;
         hasArrived = _part.TryRattle(h, _tolerance) && !HasRunAway;
         if (!hasArrived || !IsPartKept(h, halvings))
         {

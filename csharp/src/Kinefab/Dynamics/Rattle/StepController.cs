@@ -71,7 +71,10 @@ internal sealed partial class StepController
     private bool _isOfAnyLength;
     private bool _isSmooth;
 
+    // At the step's start, and after the last part that was taken.
     private EnergyAudit _energy;
+    private EnergyAudit _end;
+
     private EnergyLedger _ledger;
     private double _dt;
     private double _elapsed;
@@ -231,7 +234,7 @@ internal sealed partial class StepController
     private int TakeParts(int halvings, ref SubstepHistory cut)
     {
         int next = TakeParts(halvings);
-        while (halvings < MaxKept && _isAudited && (_excess > MostShares || !CanTakeGain()))
+        while (halvings < MaxKept && _isAudited && _dampedInStep == 0 && (_excess > MostShares || !CanTakeGain()))
         {
             ReturnToStart();
             halvings++;
@@ -256,7 +259,7 @@ internal sealed partial class StepController
     // What the island's next step takes from this one.
     private void End(ref SubstepHistory cut, int halvings, double demand)
     {
-        cut.IsSingular = _isSingular && new EnergyAudit(_batch, _dt, _tolerance).Excess(_energy, false, MostEnergyChange) > 1;
+        cut.IsSingular = _isSingular && _isAudited && _end.Excess(_energy, false, MostEnergyChange) > 1;
         Enter(ref cut.Energy);
         bool comesToRest = false;
         cut.IsSlowedDown = _batch.ActiveSet != null && _batch.ActiveSet.EndPace(_dt, _tolerance / _dt, out comesToRest);
@@ -291,11 +294,10 @@ internal sealed partial class StepController
             return;
         }
 
-        var end = new EnergyAudit(_batch, _dt, _tolerance);
-        if (end.IsClosed)
+        if (_end.IsClosed)
         {
-            double takeable = LaneEnergy<ScalarLane>.Takeable(_batch, 0, end.Kinetic, out CommonMotion common);
-            LaneEnergy<ScalarLane>.Take(_batch, 0, ledger.Enter(end.GainSince(_energy), end.Moving, takeable, MayLose), takeable, common);
+            double takeable = LaneEnergy<ScalarLane>.Takeable(_batch, 0, _end.Kinetic, out CommonMotion common);
+            LaneEnergy<ScalarLane>.Take(_batch, 0, ledger.Enter(_end.GainSince(_energy), _end.Moving, takeable, MayLose), takeable, common);
         }
     }
 
@@ -312,14 +314,11 @@ internal sealed partial class StepController
     }
 
     // Whether what the account takes of the step at its end is enough.
-    private bool CanTakeGain()
-    {
-        var end = new EnergyAudit(_batch, _dt, _tolerance);
-        return !end.IsClosed || _ledger.CanTake(end.GainSince(_energy), end.Moving, LaneEnergy<ScalarLane>.Takeable(_batch, 0, end.Kinetic, out _));
-    }
+    private bool CanTakeGain() =>
+        !_end.IsClosed || _ledger.CanTake(_end.GainSince(_energy), _end.Moving, LaneEnergy<ScalarLane>.Takeable(_batch, 0, _end.Kinetic, out _));
 
     // What a step that is too long gains or loses, shorter ones do not; what goes where branches of a loop's motion meet, goes whatever their length.
-    private void FindSingular(double gain, int halvings)
+    private void FindGainOfAnyLength(double gain, int halvings)
     {
         if (_firstGain == 0)
         {
@@ -437,13 +436,14 @@ internal sealed partial class StepController
         double excess = Excess(end, halvings), gain = end.GainSince(_energy);
         if (!(excess <= _excess + Math.Max(PartShare, h / _dt)))
         {
-            FindSingular(gain - _gain, halvings);
+            FindGainOfAnyLength(gain - _gain, halvings);
             return false;
         }
 
         _isSmooth = gain - _gain <= end.Allowed(_energy, MayLose, PartShare * (MayLose ? MostEnergyGain : MostEnergyChange));
         _excess = excess;
         _gain = gain;
+        _end = end;
         return true;
     }
 
@@ -506,6 +506,7 @@ internal sealed partial class StepController
         _dampedInStep++;
         DampedSteps++;
         Damp(KeptSpeed);
+        _end = new EnergyAudit(_batch, _dt, _tolerance);
     }
 
     private bool TryProjected(Snapshot start, double h, int halvings)

@@ -23,7 +23,7 @@ internal sealed class MachineSceneTests
 
     // A step's parts against those of the machine's middle step, and the share of machines that may have one of more.
     private const double MostCost = 50;
-    private const double MostCostly = 0.015;
+    private const double MostCostly = 0.01;
 
     private const int ComparedSteps = 40;
     private const double Alike = 1e-3;

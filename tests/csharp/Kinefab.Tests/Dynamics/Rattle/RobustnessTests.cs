@@ -19,10 +19,10 @@ internal sealed class RobustnessTests
     private const int LongScenes = 150;
     private const int LongSteps = 200;
 
-    // Of 25,000, four move farther in a step than any cut follows, with megajoules: stops with a motion. Which ones, the last digits decide.
+    // Of 25,000 none stops with a motion; four did that move farther in a step than any cut followed, with megajoules, and which ones the last digits decided.
     private const int MostStops = 1;
 
-    // Of 400 that run long, two.
+    // Of 400 that run long, one.
     private const int MostLongStops = 1;
 
     // Shorter steps that decide whether a scene that stops has a motion.

@@ -28,7 +28,7 @@ internal sealed partial class ActiveSet<V>
             switch (scalar.Kind)
             {
                 case RowKind.Spring:
-                    SetImpulseSecondHalf(ref scalar, scalar.ImpulseFirstHalf * (1 - scalar.FirstShare) / scalar.FirstShare);
+                    SetSecondHalf(ref scalar);
                     scalar.Spring.CorrectionSpeed = scalar.State == RowState.Free ? (scalar.Spring.Law.RestImpulse - scalar.ImpulseFirstHalf / scalar.Theta) / scalar.Spring.Law.ImplicitDamping : double.NaN;
                     scalar.State = RowState.AtBound;
                     break;
@@ -195,6 +195,24 @@ internal sealed partial class ActiveSet<V>
         }
 
         return scalar.Built.Bounces(-scalar.StartSpeed) ? -scalar.Built.Restitution * scalar.StartSpeed : 0;
+    }
+
+    // The rest of a spring's impulse. An acceleration's is by what the row answers now, a damper's by the speed that is asked for now: by those of the
+    // start alone, as they change with the pose, it would be of first order.
+    private void SetSecondHalf(ref ScalarRow scalar)
+    {
+        double rest = scalar.ImpulseFirstHalf * (1 - scalar.FirstShare) / scalar.FirstShare;
+        double impulse = rest;
+        if (scalar.State == RowState.Free)
+        {
+            double share = 1 - scalar.Theta;
+            impulse += share * scalar.Spring.Length * scalar.Spring.Law.Damping * (scalar.Built.VelocityTarget - scalar.Spring.StartTarget);
+            impulse *= scalar.Built.Has(RowFlags.AccelerationSpring) ? scalar.Spring.StartResponse / Math.Max(Response(scalar), ScalarRow.LeastResponse) : 1;
+            impulse = Math.Max(share * scalar.Low, Math.Min(share * scalar.High, impulse));
+            scalar.Spring.Work += (impulse - rest) * scalar.Spring.DriftSpeed;
+        }
+
+        SetImpulseSecondHalf(ref scalar, impulse);
     }
 
     private void SetImpulseSecondHalf(ref ScalarRow scalar, double impulse)

@@ -38,7 +38,8 @@ internal sealed partial class ActiveSet<V>
         for (int i = 0; i < _rows.Length; i++)
         {
             ref ScalarRow scalar = ref _rows[i];
-            scalar.Spring.Work += scalar.Kind == RowKind.Spring && !HasPotential(scalar) ? scalar.ImpulseFirstHalf / scalar.FirstShare * DriftSpeed(scalar) : 0;
+            scalar.Spring.DriftSpeed = scalar.Kind == RowKind.Spring && !HasPotential(scalar) ? DriftSpeed(scalar) : 0;
+            scalar.Spring.Work += scalar.Spring.DriftSpeed != 0 ? scalar.ImpulseFirstHalf / scalar.FirstShare * scalar.Spring.DriftSpeed : 0;
         }
     }
 
@@ -127,10 +128,14 @@ internal sealed partial class ActiveSet<V>
     }
 
     // Whether the force is one in C alone and C changes as the row moves: not where a damper drives, nor of twist and swing
-    // drives, whose C is a sine of the angle by which the row turns, so that a force at its limit works by more than C says.
+    // drives, whose C is a sine of the angle by which the row turns, so that a force at its limit works by more than C says; nor of an acceleration that
+    // asks the bodies for another force in each pose, as it does but in a hinge and a slide.
     private bool HasPotential(in ScalarRow scalar) =>
-        scalar.Built.Hint == SolveHint.SlerpSpring ? ((D6Joint)_batch.Models[scalar.Block]!).DriveAngularVelocity == Vector3d.Zero
-        : scalar.Built.VelocityTarget == 0 && !IsSine(scalar);
+        !IsSine(scalar) && (scalar.Built.Damping == 0 || !IsAskedForSpeed(scalar))
+        && (!scalar.Built.Has(RowFlags.AccelerationSpring) || _batch.Shape.Blocks[scalar.Block].HasOneFreedom);
+
+    private bool IsAskedForSpeed(in ScalarRow scalar) =>
+        scalar.Built.Hint == SolveHint.SlerpSpring ? ((D6Joint)_batch.Models[scalar.Block]!).DriveAngularVelocity != Vector3d.Zero : scalar.Built.VelocityTarget != 0;
 
     // The springs of a D6's twist and swing.
     private bool IsSine(in ScalarRow scalar) =>

@@ -323,7 +323,7 @@ internal sealed partial class ActiveSet<V>
         const double mostChange = 1;
         double speed = DriftSpeed(scalar);
         double change = scalar.End.GeometricError - scalar.StartError;
-        return scalar.Spring.EndShare > 0 && scalar.HasEnd && Math.Abs(change) < mostChange ? speed + scalar.Spring.EndShare * (change / scalar.Spring.EndStep - speed) : speed;
+        return scalar.Spring.EndShare > 0 && scalar.HasEnd && Math.Abs(change) < mostChange ? speed + scalar.Spring.EndShare * (change / scalar.Spring.Length - speed) : speed;
     }
 
     private double Response(in ScalarRow scalar) => Impulses<V>.ResponseOf(_batch, scalar.Block, scalar.Built);

@@ -80,6 +80,9 @@ internal sealed class RowBlock
     public readonly AngularForm Angular;
     public readonly int BilateralCount;
 
+    /// <summary>Whether it is a hinge, a slide or the like, in which a force on the freedom meets the same inertia in every pose.</summary>
+    public bool HasOneFreedom => BilateralCount == 5;
+
     /// <summary>Angular rows in closed form, each of two axes that stay at right angles.</summary>
     public readonly int LockedRotations;
 

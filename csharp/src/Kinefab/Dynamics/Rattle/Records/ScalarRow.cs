@@ -242,9 +242,11 @@ internal struct ScalarRow
     {
         var gains = new DriveModel { Stiffness = Built.Stiffness, Damping = Built.Damping, IsAcceleration = Built.Has(RowFlags.AccelerationSpring) };
         Spring.Law = new SpringLaw(gains, Built.VelocityTarget, StartError, h, response, isImplicit);
+        Spring.StartResponse = response;
+        Spring.StartTarget = Built.VelocityTarget;
         Theta = Spring.Law.Theta;
         Spring.EndShare = isSine && Theta == 0.5 && Spring.Law.ImplicitDamping > 0 ? 1 - h * Spring.Law.Damping / Spring.Law.ImplicitDamping : 0;
-        Spring.EndStep = h;
+        Spring.Length = h;
     }
 }
 

@@ -119,9 +119,9 @@ internal static class SimulateCommand
             {
                 DriveSetting? drive = DriveSetting.Read(world, mechanism!, text, out string fault);
                 if (drive is null)
-                    return SceneOutcome.Refused(before, $"--drive {text}: {fault}");
+                    return RefuseDrive(file, before, text, fault);
                 if (drives.Find(other => other.Coordinate == drive.Coordinate) is DriveSetting other)
-                    return SceneOutcome.Refused(before, $"--drive {text}: {other.Text} drives {drive.Coordinate.ShortName} already, and a coordinate has one drive.");
+                    return RefuseDrive(file, before, text, $"{other.Text} drives {drive.Coordinate.ShortName} already, and a coordinate has one drive.");
                 drives.Add(drive);
             }
 
@@ -182,6 +182,12 @@ internal static class SimulateCommand
                 ? new SceneOutcome(0, found, Fields: summary.WriteJson)
                 : new SceneOutcome(1, found, "the solver could not follow", summary.WriteJson);
         }
+
+        // Of a replay the recording is at fault, not what was typed.
+        private SceneOutcome RefuseDrive(string file, Report before, string text, string fault) =>
+            ReplayOf is null
+                ? SceneOutcome.Refused(before, $"--drive {text}: {fault}")
+                : Fail(file, before, RecordFile.Unreadable(ReplayOf, $"its drive {text} is refused, {fault.TrimEnd('.')}").Report);
 
         private void Tell(string file, Report report)
         {

@@ -74,6 +74,10 @@ internal static class RecordFile
         }
     }
 
+    /// <summary>No recording, and why.</summary>
+    internal static (RunRecord? Record, Report Report) Unreadable(string path, string detail) =>
+        (null, new Report([Diagnostic.Of(DiagnosticCodes.RecordingUnreadable, "", ("path", path), ("detail", detail))]));
+
     /// <summary>What <see cref="RunRecord.Scene"/> is of a file.</summary>
     internal static string HashOfScene(string path)
     {
@@ -140,7 +144,4 @@ internal static class RecordFile
             throw new InvalidDataException($"{name} is missing");
         return member.ValueKind == kind ? member : throw new InvalidDataException($"{name} is no {kind.ToString().ToLowerInvariant()}");
     }
-
-    private static (RunRecord? Record, Report Report) Unreadable(string path, string detail) =>
-        (null, new Report([Diagnostic.Of(DiagnosticCodes.RecordingUnreadable, "", ("path", path), ("detail", detail))]));
 }

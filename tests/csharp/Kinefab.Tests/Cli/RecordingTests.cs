@@ -121,6 +121,8 @@ public sealed class RecordingTests
     [TestCase("every", "0", "every is no whole number from 1 to 1000000")]
     [TestCase("drives", "[3]", "drives[0] is no text")]
     [TestCase("drives", "null", "drives is no array")]
+    [TestCase("drives", "[\"Door=30\"]", "RECORDING_UNREADABLE: The recording FILE cannot be read: its drive Door=30 is refused, no joint moves by this name; there are ")]
+    [TestCase("drives", "[\"Crank:1=30\", \"Lever/Crank:1=40\"]", "its drive Lever/Crank:1=40 is refused, Crank:1=30 drives Lever/Crank:1 already, and a coordinate has one drive. ")]
     [TestCase("hashes", "[\"x\"]", "hashes[0] is not 16 hexadecimal digits")]
     [TestCase("hashes", "{}", "hashes is no array")]
     public void Replay_OfAWrongField_SaysWhich(string field, string value, string said)

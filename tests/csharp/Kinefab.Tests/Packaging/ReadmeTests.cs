@@ -104,6 +104,14 @@ public sealed class ReadmeTests
         Assert.That(missing, Is.Empty);
     }
 
+    [Test]
+    public void Readme_CopiedFiles_AreCopiedSoInTheExample()
+    {
+        const string copies = "<None Include=\"lever.*\" CopyToOutputDirectory=\"PreserveNewest\" />";
+        foreach (string file in new[] { "csharp/examples/LeverTests/LeverTests.csproj", "guides/ci.md", "csharp/src/Kinefab.NUnit/README.md" })
+            Assert.That(File.ReadAllText(Path.Combine(Root(), file)), Does.Contain(copies), file);
+    }
+
     private static string Plain(string line) => line.Replace("out/lever.kinefab", "LEVER", StringComparison.Ordinal).Replace("\"LEVER\"", "Lever", StringComparison.Ordinal).Trim();
 
     private static string Lever => Path.Combine(Root(), "fixtures", "lever", "lever.kinefab");

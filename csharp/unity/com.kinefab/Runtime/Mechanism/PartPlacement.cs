@@ -204,7 +204,7 @@ namespace KinefabUnity
 
             for (int i = 0; i < _parts.Length; i++)
             {
-                if (_parts[i].Transform != null && _parts[i].Link == null)
+                if (IsPlaced(_parts[i]))
                 {
                     Put(_parts[i], home);
                 }
@@ -225,7 +225,7 @@ namespace KinefabUnity
 
             for (int i = 0; i < _parts.Length; i++)
             {
-                if (_parts[i].Transform != null && _parts[i].Link == null)
+                if (IsPlaced(_parts[i]))
                 {
                     _parts[i].Transform.localPosition = stood[i].Position;
                     _parts[i].Transform.localRotation = stood[i].Rotation;
@@ -248,6 +248,9 @@ namespace KinefabUnity
 
             _motion.Follow(_gameObjects, _poses, closes);
         }
+
+        // Links are where physics has them.
+        private static bool IsPlaced(in Part part) => part.Transform != null && part.Link == null;
 
         // A body that is switched off is in no physics step.
         private static bool IsInPhysics(in Part part) =>

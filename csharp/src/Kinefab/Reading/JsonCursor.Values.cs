@@ -278,7 +278,7 @@ internal ref partial struct JsonCursor
 
     /// <summary>
     /// Steps over the current value, of a name over that of its field, which nobody here reads: what no program could write again, a number that no 64-bit
-    /// float holds or half of a surrogate pair, is reported there too (RFC 7493 has neither).
+    /// float holds or half of a surrogate pair, which only an escape can be, is reported there too (RFC 7493 has neither).
     /// </summary>
     private void PassOver()
     {
@@ -287,7 +287,7 @@ internal ref partial struct JsonCursor
         {
             if (reader.Token == JsonToken.Number && double.IsInfinity(reader.GetDouble()))
                 Report(DiagnosticCodes.NumberNotFinite, ("number", TokenText()));
-            else if (reader.Token is JsonToken.String or JsonToken.PropertyName && !reader.TryGetString(out _))
+            else if (reader.Token is JsonToken.String or JsonToken.PropertyName && reader.IsEscaped && !reader.TryGetString(out _))
                 Report(DiagnosticCodes.JsonStringInvalid);
             depth += reader.Token is JsonToken.StartObject or JsonToken.StartArray ? 1 : reader.Token is JsonToken.EndObject or JsonToken.EndArray ? -1 : 0;
         }

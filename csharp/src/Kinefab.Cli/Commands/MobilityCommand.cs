@@ -1,4 +1,5 @@
 using System;
+using System.Collections.Generic;
 using System.CommandLine;
 using System.IO;
 using System.Linq;
@@ -71,10 +72,7 @@ internal static class MobilityCommand
         foreach (IslandMobility island in counted.Islands)
         {
             json.WriteStartObject();
-            json.WriteStartArray("gameObjects");
-            foreach (int gameObject in island.GameObjects)
-                json.WriteNumberValue(gameObject);
-            json.WriteEndArray();
+            WriteGameObjects(island.GameObjects, json);
             json.WriteNumber("mobility", island.Mobility);
             json.WriteNumber("firstOrderMobility", island.FirstOrder);
             json.WriteNumber("redundant", island.Redundant);
@@ -98,10 +96,7 @@ internal static class MobilityCommand
         foreach (IdleFreedom idle in counted.Idle)
         {
             json.WriteStartObject();
-            json.WriteStartArray("gameObjects");
-            foreach (int gameObject in idle.GameObjects)
-                json.WriteNumberValue(gameObject);
-            json.WriteEndArray();
+            WriteGameObjects(idle.GameObjects, json);
             json.WriteNumber("count", idle.Count);
             json.WriteEndObject();
         }
@@ -120,6 +115,14 @@ internal static class MobilityCommand
 
         json.WriteEndArray();
         json.WriteEndObject();
+    }
+
+    private static void WriteGameObjects(IReadOnlyList<int> gameObjects, Utf8JsonWriter json)
+    {
+        json.WriteStartArray("gameObjects");
+        foreach (int gameObject in gameObjects)
+            json.WriteNumberValue(gameObject);
+        json.WriteEndArray();
     }
 
     private static string Id(ValidScene scene, int gameObject) => Printable.Text(scene.Document.GameObjects[gameObject].Id);

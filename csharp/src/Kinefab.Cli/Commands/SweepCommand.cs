@@ -49,7 +49,7 @@ internal static class SweepCommand
                 return SceneOutcome.Refused(loaded.Report, $"--joint {Joint}: {fault}");
 
             MechanismCoordinate driven = mechanism.Coordinates[coordinate];
-            if (SweepText.RangeFault(driven, Math.Max(Math.Abs(From ?? 0), Math.Abs(To ?? 0)), driven.Unit) is string range)
+            if (CoordinateText.RangeFault(driven, Math.Max(Math.Abs(From ?? 0), Math.Abs(To ?? 0)), driven.Unit) is string range)
                 return SceneOutcome.Refused(loaded.Report, $"--from and --to {range} for {Joint}.");
 
             if (TrajectorySize.Fault(Steps, mechanism.Bodies.Count, mechanism.Coordinates.Count) is string excess)

@@ -3,6 +3,7 @@ using System.Globalization;
 using System.IO;
 using System.Linq;
 using Kinefab.Kinematics;
+using static Kinefab.Cli.Motion.CoordinateText;
 
 namespace Kinefab.Cli.Motion;
 
@@ -51,11 +52,4 @@ internal static class SweepText
         coordinate.Name.StartsWith(coordinate.ShortName, StringComparison.Ordinal) ? "" : $" \"{coordinate.ShortName}\"";
 
     private static void Line(TextWriter target, string text) => target.WriteLine(Printable.Text(text));
-
-    // As it is written, without the sign that the format gives a negative number that comes to 0.
-    /// <summary>Null when a coordinate may be asked to go that far, at once or in a second, else between which the value must lie.</summary>
-    internal static string? RangeFault(MechanismCoordinate coordinate, double value, string unit) =>
-        Math.Abs(value) <= coordinate.Farthest ? null : $"must lie between -{Number(coordinate.Farthest)} and {Number(coordinate.Farthest)} {unit}";
-
-    internal static string Number(double value) => (Math.Round(value, 6) + 0.0).ToString("0.######", CultureInfo.InvariantCulture);
 }

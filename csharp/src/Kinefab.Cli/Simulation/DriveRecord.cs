@@ -17,7 +17,7 @@ internal sealed class DriveRecord(DriveSetting drive, double step)
     internal void Note() => (before, now) = (now, drive.Value);
 
     internal void Write(TextWriter target) => target.WriteLine(Printable.Text(
-        $"drive {drive.Coordinate.ShortName}: asked {SweepText.Number(drive.Asked)} {drive.Unit}, reached {SweepText.Number(Reached)} {drive.Unit}"));
+        $"drive {drive.Coordinate.ShortName}: asked {CoordinateText.Number(drive.Asked)} {drive.Unit}, reached {CoordinateText.Number(Reached)} {drive.Unit}"));
 
     internal void WriteJson(Utf8JsonWriter json)
     {

@@ -48,7 +48,7 @@ internal sealed record DriveSetting(string Text, WorldJoint Joint, MechanismCoor
             return Wrong($"the joint does not move along {found.Coordinate.ToJson()}.", out fault);
         WorldJoint joint = world.Joints.Single(j => j.GameObject == found.GameObject && j.Component == found.Component);
         var drive = new DriveSetting(text, joint, found, number, isSpeed);
-        if (SweepText.RangeFault(found, number, drive.Unit) is string range)
+        if (CoordinateText.RangeFault(found, number, drive.Unit) is string range)
             return Wrong($"it {range}.", out fault);
         fault = "";
         return drive;
@@ -77,7 +77,7 @@ internal sealed record DriveSetting(string Text, WorldJoint Joint, MechanismCoor
             ("coordinate", Coordinate.ShortName),
             ("target", Shown(Asked)),
             ("limit", Shown(Asked < own.Lower ? own.Lower : own.Upper)),
-            ("lower", SweepText.Number(own.Lower)),
+            ("lower", CoordinateText.Number(own.Lower)),
             ("upper", Shown(own.Upper)));
     }
 
@@ -91,14 +91,14 @@ internal sealed record DriveSetting(string Text, WorldJoint Joint, MechanismCoor
             Pointer,
             ("coordinate", Coordinate.ShortName),
             ("speed", Shown(Asked)),
-            ("angle", SweepText.Number(angle)),
+            ("angle", CoordinateText.Number(angle)),
             ("step", step.ToString(CultureInfo.InvariantCulture)),
-            ("most", SweepText.Number(HalfTurn / step)));
+            ("most", CoordinateText.Number(HalfTurn / step)));
     }
 
     private string Pointer => FormattableString.Invariant($"/gameObjects/{Joint.GameObject}/components/{Joint.Component}");
 
-    private string Shown(double value) => $"{SweepText.Number(value)} {Unit}";
+    private string Shown(double value) => $"{CoordinateText.Number(value)} {Unit}";
 
     private static DriveSetting? Wrong(string reason, out string fault)
     {

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import gc
 import math
+from collections.abc import Iterator
 from dataclasses import replace
 
 import kinefab
@@ -21,6 +22,27 @@ from linkages import ring
 def pins(count: int) -> list[np.ndarray]:
     turns = np.linspace(0.0, math.tau, count, endpoint=False)
     return [np.array([math.cos(t), 0.7 * math.sin(t), 0.0]) for t in turns]
+
+
+def platform() -> tuple[kinefab.Scene, int, int]:
+    """The base and the top of one, with no legs yet."""
+    source = kinefab.Scene()
+    return source, source.add_part("base", grounded=True), source.add_part("top", mass=3.0, translation=(0, 1, 0))
+
+
+def legs() -> Iterator[tuple[np.ndarray, np.ndarray]]:
+    """Foot and head of each of its six, all turned alike: the platform is singular."""
+    for i in range(6):
+        turns = np.array([math.tau * i / 6, math.tau * i / 6 + 0.5])
+        foot, head = (np.array([r * math.cos(t), h, r * math.sin(t)]) for r, h, t in zip((1, 0.6), (0, 1), turns))
+        yield foot, head
+
+
+def move_joints_apart(source: kinefab.Scene, noise: float) -> None:
+    draw = np.random.default_rng(1)
+    source.joints[:] = [
+        replace(j, frame_a=Pose(j.frame_a.rotation, j.frame_a.translation + noise * draw.standard_normal(3))) for j in source.joints
+    ]
 
 
 @pytest.mark.parametrize("count", [40, 160])
@@ -75,12 +97,8 @@ def test_the_collector_runs_again_after_an_analysis_that_fails():
 def test_what_holds_a_singular_mechanism_is_looked_for_a_few_times_only(monkeypatch):
     """A platform on six legs, each a slide between two universal joints, whose frames miss each other by a CAD program's rounding:
     nothing moves, and without any of its joints all that is left has to be searched for motions.  The first few are named."""
-    draw = np.random.default_rng(1)
-    source = kinefab.Scene()
-    base, top = source.add_part("base", grounded=True), source.add_part("top", mass=3.0, translation=(0, 1, 0))
-    for i in range(6):
-        turns = np.array([math.tau * i / 6, math.tau * i / 6 + 0.5])
-        foot, head = (np.array([r * math.cos(t), h, r * math.sin(t)]) for r, h, t in zip((1, 0.6), (0, 1), turns))
+    source, base, top = platform()
+    for i, (foot, head) in enumerate(legs()):
         along = (head - foot) / np.linalg.norm(head - foot)
         across = np.cross(along, [0, 1, 0]) / np.linalg.norm(np.cross(along, [0, 1, 0]))
         third = np.cross(along, across)
@@ -92,9 +110,7 @@ def test_what_holds_a_singular_mechanism_is_looked_for_a_few_times_only(monkeypa
             ("universal", high, top, head, across, third),
         ):
             source.add_joint(kind, a, b, point=tuple(point), axis=tuple(axis), secondary=tuple(second))
-    source.joints[:] = [
-        replace(j, frame_a=Pose(j.frame_a.rotation, j.frame_a.translation + 1e-6 * draw.standard_normal(3))) for j in source.joints
-    ]
+    move_joints_apart(source, 1e-6)
     assembled = []
     monkeypatch.setattr(still, "assemble", lambda *given: assembled.append(given) or assemble(*given))
     found = analyse(source)
@@ -108,18 +124,12 @@ def test_what_holds_a_singular_mechanism_is_looked_for_a_few_times_only(monkeypa
 def test_noise_makes_a_singular_platform_no_dearer_to_search(monkeypatch, noise):
     """A platform on six rods between balls, singular all along: in a small trial step noise hides what obstructs a velocity, and
     then each of the rods' spins was followed for itself, at ten times the cost."""
-    draw = np.random.default_rng(1)
-    source = kinefab.Scene()
-    base, top = source.add_part("base", grounded=True), source.add_part("top", mass=3.0, translation=(0, 1, 0))
-    for i in range(6):
-        turns = np.array([math.tau * i / 6, math.tau * i / 6 + 0.5])
-        foot, head = (np.array([r * math.cos(t), h, r * math.sin(t)]) for r, h, t in zip((1, 0.6), (0, 1), turns))
+    source, base, top = platform()
+    for i, (foot, head) in enumerate(legs()):
         rod = source.add_part(f"rod{i}", mass=1.0, translation=tuple(0.8 * foot + 0.2 * head))
         source.add_ball(base, rod, point=tuple(foot))
         source.add_ball(rod, top, point=tuple(head))
-    source.joints[:] = [
-        replace(j, frame_a=Pose(j.frame_a.rotation, j.frame_a.translation + noise * draw.standard_normal(3))) for j in source.joints
-    ]
+    move_joints_apart(source, noise)
     tried = []
     monkeypatch.setattr(motion, "kept_of", lambda *given: tried.append(given) or kept_of(*given))
     assert analyse(source).mobility == 7

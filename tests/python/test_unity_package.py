@@ -63,6 +63,12 @@ def test_the_version_is_the_library_s():
     assert stated and pack.version() == stated[1]
 
 
+def test_the_guides_name_the_oldest_editor_that_the_package_names():
+    oldest = json.loads((ROOT / "csharp/unity/com.kinefab/package.json").read_text("utf-8"))["unity"]
+    assert f"Unity {oldest} and later" in (ROOT / "guides/csharp.md").read_text("utf-8")
+    assert f"Unity {oldest} or newer" in (ROOT / "csharp/unity/com.kinefab/README.md").read_text("utf-8")
+
+
 def test_assemblies_see_the_library_and_nobody_else_does(library):
     files = pack.contents(library)
     assert b"isExplicitlyReferenced: 1" in files[pack.LIBRARY + ".meta"]

@@ -6,7 +6,7 @@ using NUnit.Framework;
 
 namespace Kinefab.Tests.UnityPackage;
 
-/// <summary>KinefabDragger by the Input System package: that branch of the sources compiled as a project with it would, and run.</summary>
+/// <summary>KinefabDragger by the Input System package and below an interface by UGUI: those branches of the sources compiled as a project with them would, and run.</summary>
 public sealed class InputSystemTests
 {
     // Press on the crank, pull, release; then without a pointer. What there is to see, by a comma each.
@@ -41,7 +41,24 @@ public sealed class InputSystemTests
                 told += Told(dragger, mechanism);
                 pointer.press.isPressed = false;
                 Player.Frame();
-                return told + Told(dragger, mechanism);
+                told += Told(dragger, mechanism);
+        #if KINEFAB_UGUI
+                // A press with a button of an interface before the part, then with what a raycaster sees of the scene itself.
+                pointer.position.Value = Vector2.zero;
+                UnityEngine.EventSystems.EventSystem events = UnityEngine.EventSystems.EventSystem.current = new GameObject("Events").AddComponent<UnityEngine.EventSystems.EventSystem>();
+                UnityEngine.EventSystems.BaseRaycaster[] raycasters =
+                    { eye.AddComponent<UnityEngine.UI.GraphicRaycaster>(), eye.AddComponent<UnityEngine.EventSystems.PhysicsRaycaster>() };
+                foreach (UnityEngine.EventSystems.BaseRaycaster raycaster in raycasters)
+                {
+                    mechanism.GoHome();
+                    events.Hits.Clear();
+                    events.Hits.Add(new UnityEngine.EventSystems.RaycastResult { module = raycaster });
+                    (pointer.press.isPressed, pointer.press.wasPressedThisFrame) = (true, true);
+                    Player.Frame();
+                    told += Told(dragger, mechanism);
+                }
+        #endif
+                return told;
             }
 
             private static string Told(KinefabDragger dragger, KinefabMechanism mechanism) =>
@@ -55,6 +72,14 @@ public sealed class InputSystemTests
     {
         string scene = Path.Combine(PlayedMechanism.Fixtures, "..", "csharp", "unity", "com.kinefab", "Samples~", "FourBar", "FourBar.kinefab");
         Assert.That(UnityEditors.Run(editor, Play, scene, "ENABLE_INPUT_SYSTEM", "KINEFAB_INPUT_SYSTEM"), Is.EqualTo("- still,Crank still,Crank moved,- moved,"));
+    }
+
+    [Test]
+    public void Dragger_PressedOnAnInterface_PullsNothingBehindIt()
+    {
+        string scene = Path.Combine(PlayedMechanism.Fixtures, "..", "csharp", "unity", "com.kinefab", "Samples~", "FourBar", "FourBar.kinefab");
+        string told = UnityEditors.Run("6000.7", Play, scene, "ENABLE_INPUT_SYSTEM", "KINEFAB_INPUT_SYSTEM", "KINEFAB_UGUI");
+        Assert.That(told, Is.EqualTo("- still,Crank still,Crank moved,- moved,- still,Crank still,"));
     }
 
     // With neither way of input nothing is read, and nothing fails.

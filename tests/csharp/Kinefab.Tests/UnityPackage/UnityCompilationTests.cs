@@ -15,7 +15,7 @@ public sealed class UnityCompilationTests
     public void Sources_OfEveryEditor_Compile(string editor, bool isEditor)
     {
         // Both ways of input: Unity's templates of 6000 have the package alone, older ones the manager.
-        string[] inputs = isEditor ? ["ENABLE_LEGACY_INPUT_MANAGER"] : ["ENABLE_INPUT_SYSTEM", "KINEFAB_INPUT_SYSTEM"];
+        string[] inputs = isEditor ? ["ENABLE_LEGACY_INPUT_MANAGER"] : ["ENABLE_INPUT_SYSTEM", "KINEFAB_INPUT_SYSTEM", "KINEFAB_UGUI"];
         IEnumerable<Diagnostic> errors = UnityEditors.Compile(editor, isEditor, inputs).GetDiagnostics().Where(d => d.Severity == DiagnosticSeverity.Error);
         Assert.That(errors.Select(d => d.ToString()), Is.Empty);
     }

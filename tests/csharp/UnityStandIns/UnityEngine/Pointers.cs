@@ -29,3 +29,53 @@ namespace UnityEngine.InputSystem.Controls
     }
 }
 #endif
+
+// The part of the UGUI package that the dragger uses, likewise; what the pointer is on is set by the test.
+#if KINEFAB_UGUI
+namespace UnityEngine.EventSystems
+{
+    using System.Collections.Generic;
+
+    public class EventSystem : MonoBehaviour
+    {
+        internal readonly List<RaycastResult> Hits = new List<RaycastResult>();
+
+        public static EventSystem current { get; set; }
+
+        public void RaycastAll(PointerEventData eventData, List<RaycastResult> raycastResults)
+        {
+            raycastResults.Clear();
+            raycastResults.AddRange(Hits);
+        }
+    }
+
+    public class PointerEventData
+    {
+        public PointerEventData(EventSystem eventSystem)
+        {
+        }
+
+        public Vector2 position { get; set; }
+    }
+
+    public struct RaycastResult
+    {
+        public BaseRaycaster module;
+    }
+
+    public abstract class BaseRaycaster : MonoBehaviour
+    {
+    }
+
+    public class PhysicsRaycaster : BaseRaycaster
+    {
+    }
+}
+
+namespace UnityEngine.UI
+{
+    public class GraphicRaycaster : EventSystems.BaseRaycaster
+    {
+    }
+}
+#endif

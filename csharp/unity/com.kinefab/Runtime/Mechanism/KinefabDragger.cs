@@ -1,4 +1,10 @@
+#if KINEFAB_UGUI
+using System.Collections.Generic;
+#endif
 using UnityEngine;
+#if KINEFAB_UGUI
+using UnityEngine.EventSystems;
+#endif
 #if ENABLE_INPUT_SYSTEM && KINEFAB_INPUT_SYSTEM
 using UnityEngine.InputSystem;
 #endif
@@ -7,7 +13,8 @@ namespace KinefabUnity
 {
     /// <summary>
     /// Lets the player pull at parts of every <see cref="KinefabMechanism"/> with the mouse: press on a part, move, release. Put it
-    /// on any object, best on the camera. Works with the old Input Manager and with the Input System package.
+    /// on any object, best on the camera. Works with the old Input Manager and with the Input System package; what is pressed through an
+    /// interface that an EventSystem knows is the interface's.
     /// </summary>
     [AddComponentMenu("Kinefab/Kinefab Dragger")]
     public sealed class KinefabDragger : MonoBehaviour
@@ -33,7 +40,11 @@ namespace KinefabUnity
 
         private void Pull(Camera eye, Vector2 at, bool isPressed, bool isDown)
         {
-            if (isPressed)
+            if (isPressed && IsOnInterface(at))
+            {
+                _drag.End();
+            }
+            else if (isPressed)
             {
                 _drag.Begin(eye.ScreenPointToRay(at), eye.transform.forward);
             }
@@ -45,6 +56,24 @@ namespace KinefabUnity
             {
                 _drag.End();
             }
+        }
+
+        // By the place and not by IsPointerOverGameObject, which asks for a finger's number, and which a raycaster for the scene's own parts answers too.
+        private static bool IsOnInterface(Vector2 at)
+        {
+#if KINEFAB_UGUI
+            EventSystem events = EventSystem.current;
+            if (events == null)
+            {
+                return false;
+            }
+
+            var hits = new List<RaycastResult>();
+            events.RaycastAll(new PointerEventData(events) { position = at }, hits);
+            return hits.Exists(hit => !(hit.module is PhysicsRaycaster));
+#else
+            return false;
+#endif
         }
 
         private static bool ReadPointer(out Vector2 at, out bool isPressed, out bool isDown)

@@ -57,6 +57,30 @@ public sealed class KinefabImporterEditorTests
         }
     }
 
+    // The inspector may stay open while its file is exported anew or its settings are applied.
+    [Test]
+    public void Inspector_AfterAnotherImport_ShowsWhatThatOneFound()
+    {
+        using var scene = new EditedScene();
+        var editor = Unity.ScriptableObject.CreateInstance<KinefabImporterEditor>();
+        foreach ((double gravity, bool breaks) in new[] { (-9.81, false), (-1.62, true) })
+        {
+            scene.Save(json =>
+            {
+                json["physics"] = new JsonObject { ["gravity"] = new JsonArray(0, gravity, 0) };
+                if (breaks)
+                    scene.Objects.SelectMany(o => o!["components"]?.AsArray() ?? []).First(c => (string)c!["type"]! == "HingeJoint")!["breakForce"] = 12;
+            });
+            ImportedAsset asset = ImportedAsset.Of(scene.Scene, new KinefabSettings { physics = KinefabPhysics.Articulation });
+            AssetDatabase.Assets[scene.Scene] = [.. asset.Context.Objects.Values];
+            EditorGUILayout.Shown.Clear();
+            editor.target = asset.Importer;
+            editor.OnInspectorGUI();
+            Assert.That(EditorGUILayout.Shown, Has.Some.Contains(System.FormattableString.Invariant($"gravity (0, {gravity}, 0)")));
+            Assert.That(EditorGUILayout.Shown.Count(s => s.Contains("UNITY_PHYSICS_AS_EXPORTED", System.StringComparison.Ordinal)), Is.EqualTo(breaks ? 1 : 0));
+        }
+    }
+
     [Test]
     public void Inspector_OfAFaultyFile_ShowsItsErrors()
     {

@@ -49,6 +49,10 @@ namespace UnityEditor
 
         public static bool IsAssetImportWorkerProcess() => false;
 
+        /// <summary>Another one after each import.</summary>
+        public static Hash128 GetAssetDependencyHash(string path) =>
+            Hash128.Compute(string.Join(" ", Array.ConvertAll(LoadAllAssetsAtPath(path), System.Runtime.CompilerServices.RuntimeHelpers.GetHashCode)));
+
         public static void RegisterCustomDependency(string dependency, Hash128 hashOfValue) => Dependencies[dependency] = hashOfValue;
     }
 

@@ -14,6 +14,8 @@ namespace KinefabUnity.Editing
     {
         private const string UseWorld = "Use These in This Project";
 
+        // What is shown of the file, and the import that it was read of.
+        private Hash128 import;
         private List<KinefabFinding> findings;
         private string exported, world;
         private bool showsMaterials, showsFindings = true;
@@ -25,6 +27,7 @@ namespace KinefabUnity.Editing
             EditorGUILayout.PropertyField(serializedObject.FindProperty("settings"), true);
             serializedObject.ApplyModifiedProperties();
             var importer = (KinefabImporter)target;
+            ForgetBefore(importer);
             Physics(importer);
             Materials(importer);
             Findings(importer);
@@ -52,6 +55,18 @@ namespace KinefabUnity.Editing
             }
 
             return found;
+        }
+
+        // Settings that are applied, and a second export, import the file anew.
+        private void ForgetBefore(KinefabImporter importer)
+        {
+            Hash128 now = AssetDatabase.GetAssetDependencyHash(importer.assetPath);
+            if (!now.Equals(import))
+            {
+                import = now;
+                findings = null;
+                exported = world = null;
+            }
         }
 
         // What "As Exported" is of this file, and the world that its mechanism was made for, which no prefab brings.

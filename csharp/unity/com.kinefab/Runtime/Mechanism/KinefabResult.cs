@@ -66,7 +66,10 @@ namespace KinefabUnity
         /// <summary>The solver: every joint closed to rounding. Rigidbodies are kinematic and are sent by MovePosition and MoveRotation.</summary>
         Exact,
 
-        /// <summary>The joints' own drives, whose targets are the freedoms' values; physics moves the parts.</summary>
+        /// <summary>
+        /// The joints' own drives, whose targets are the freedoms' values; physics moves the parts, an angle by the shorter way: one that is to turn
+        /// further than by half a turn is sent there in several frames.
+        /// </summary>
         JointDrives,
 
         /// <summary>Physics alone; the values follow the parts.</summary>

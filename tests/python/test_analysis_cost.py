@@ -41,7 +41,8 @@ def legs() -> Iterator[tuple[np.ndarray, np.ndarray]]:
 def move_joints_apart(source: kinefab.Scene, noise: float) -> None:
     draw = np.random.default_rng(1)
     source.joints[:] = [
-        replace(j, frame_a=Pose(j.frame_a.rotation, j.frame_a.translation + noise * draw.standard_normal(3))) for j in source.joints
+        replace(j, frame_a=Pose(j.frame_a.rotation, j.frame_a.translation + noise * draw.standard_normal(3)))
+        for j in source.joints
     ]
 
 

@@ -145,3 +145,51 @@ def test_nothing_is_written_of_a_scene_that_the_validator_refuses(tmp_path):
     with pytest.raises(KinefabError, match="ID_DUPLICATE"):
         kinefab.export(ROOT / "invalid/gameobject/id_twice.kinefab", tmp_path / "again.kinefab")
     assert not list(tmp_path.iterdir())
+
+
+def _told(path):
+    with pytest.raises(KinefabError) as raised:
+        read(path, Report())
+    return sorted((d.code, d.where.removeprefix(str(path))) for d in raised.value.diagnostics)
+
+
+def test_faults_of_buffers_and_of_the_text_are_told_at_once(tmp_path):
+    """As C# tells them: who mends a file sees all that is wrong with it."""
+    lever = ROOT.parents[1] / "fixtures" / "lever"
+    document = json.loads((lever / "lever.kinefab").read_text("utf-8"))
+    content = (lever / document["buffers"][0]["uri"]).read_bytes()
+    document["gameObjects"][1]["parent"] = 1
+    document["meshes"][0]["submeshes"][0]["indexStart"] = 3
+    document["meshes"][1]["vertexCount"] = 1
+    path, parent = tmp_path / "damaged.kinefab", ("PARENT_NOT_EARLIER", "#/gameObjects/1/parent")
+    path.write_text(json.dumps(document), "utf-8")
+    gap = ("SUBMESH_GAP", "#/meshes/0/submeshes/0/indexStart")
+    assert _told(path) == sorted([parent, gap, ("BUFFER_MISSING", "#/buffers/0/uri")])
+    beside = tmp_path / document["buffers"][0]["uri"]
+    beside.write_bytes(content[:-4])
+    assert _told(path) == sorted([parent, gap, ("BUFFER_SIZE", "#/buffers/0/byteLength")])
+    beside.write_bytes(bytes([content[0] ^ 1]) + content[1:])
+    assert _told(path) == sorted([parent, gap, ("BUFFER_SHA256", "#/buffers/0/sha256")])
+    beside.write_bytes(content)
+    assert _told(path) == sorted([parent, gap, ("MESH_INDEX_RANGE", "#/meshes/1/indices")])
+
+
+def test_what_nobody_could_write_again_is_told_with_what_is_of_another_type(tmp_path):
+    """Of a name that stands twice the first one counts."""
+    path = tmp_path / "damaged.kinefab"
+    path.write_text(
+        '{"format": "kinefab.scene", "version": "1.0", "gameObjects": [{"id": "a", "name": 3, "name": "A", "extras": '
+        f'{{"many": 1{"0" * 400}, "\\ud800": [1e400, "\\udfff"]}}}}]}}',
+        "utf-8",
+    )
+    extras = "#/gameObjects/0/extras"
+    assert _told(path) == sorted([
+        ("FIELD_DUPLICATE", "#/gameObjects/0/name"),
+        ("JSON_STRING_INVALID", rf"{extras}/\ud800"),
+        ("JSON_STRING_INVALID", rf"{extras}/\ud800/1"),
+        ("NUMBER_NOT_FINITE", f"{extras}/many"),
+        ("NUMBER_NOT_FINITE", rf"{extras}/\ud800/0"),
+        ("TYPE_MISMATCH", "#/gameObjects/0/name"),
+    ])  # fmt: skip
+    path.write_text('{"format": "of.another", "version": "1.0", "gameObjects": [1e400]}', "utf-8")
+    assert _told(path) == [("FORMAT_UNKNOWN", "#/format")]

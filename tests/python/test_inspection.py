@@ -8,7 +8,7 @@ from pathlib import Path
 import kinefab
 import pytest
 from kinefab.diagnostics import diagnostic_table
-from kinefab.unity.back.scene_file import read_scene_file
+from kinefab.unity.back.scene_file import read_scene
 from kinefab.views.overview import overview, picture
 
 
@@ -29,7 +29,7 @@ def test_number_that_is_not_finite_is_a_finding(tmp_path, number, show):
 def test_what_is_no_file_is_a_finding(tmp_path):
     (tmp_path / "folder.kinefab").mkdir()
     with pytest.raises(kinefab.KinefabError, match="SCENE_UNREADABLE"):
-        read_scene_file(tmp_path / "folder.kinefab")
+        read_scene(tmp_path / "folder.kinefab")
 
 
 BODY = {"type": "Rigidbody"}
@@ -59,7 +59,7 @@ def test_index_that_leads_nowhere_is_a_finding(tmp_path, fields, place, index):
     scene = {"format": "kinefab.scene", "version": "1.0", **fields}
     path.write_text(json.dumps(scene).replace('"MARK"', json.dumps(index)), encoding="utf-8")
     with pytest.raises(kinefab.KinefabError) as raised:
-        read_scene_file(path)
+        read_scene(path)
     (found,) = raised.value.diagnostics
     leads_nowhere = "PARENT_NOT_EARLIER" if place.endswith("parent") else "REFERENCE_UNRESOLVED"
     assert found.code == (leads_nowhere if type(index) is int else "TYPE_MISMATCH")

@@ -12,7 +12,7 @@ import numpy as np
 import pytest
 import trimesh
 from browser import CHROMIUM, Opened, browser, window
-from kinefab.unity.back.scene_file import read_scene_file
+from kinefab.unity.back.scene_file import read_scene
 from kinefab.views import overview
 
 pytest.importorskip("playwright", reason="no playwright: the page is not tried in a browser")
@@ -219,7 +219,7 @@ def test_a_scene_file_s_page_has_the_scene_s_joints(context, tmp_path):
     opened = shown(context, tmp_path, LEVER)
     joints = [
         c["type"]
-        for o in read_scene_file(LEVER)["gameObjects"]
+        for o in read_scene(LEVER)[0]["gameObjects"]
         for c in o.get("components", ())
         if "Joint" in c["type"]
     ]

@@ -12,7 +12,7 @@ import pytest
 from golden import golden_pairs
 from kinefab.unity.container import JSON, chunks_of, write_container
 from kinefab.diagnostics import KinefabError
-from kinefab.unity.back.scene_file import read_buffers, read_scene_file
+from kinefab.unity.back.scene_file import read_scene
 from kinefab.views.overview import overview, picture
 
 FIXTURES = Path(__file__).resolve().parents[2] / "fixtures"
@@ -27,8 +27,8 @@ def exported(source: Path, folder: Path, container: str, name: str = "scene") ->
 
 
 def read(path: Path) -> tuple[dict, list[bytes]]:
-    document = read_scene_file(path)
-    return dict(document), read_buffers(path, document)
+    document, buffers = read_scene(path)
+    return dict(document), buffers
 
 
 def text_of(path: Path) -> bytes:

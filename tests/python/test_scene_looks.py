@@ -11,7 +11,7 @@ from types import ModuleType
 
 import kinefab
 from kinefab.model import Body, Surface, Texture
-from kinefab.unity.back.scene_file import read_buffers, read_scene_file
+from kinefab.unity.back.scene_file import read_scene
 from scenes import BOX
 
 SCRIPT = Path(__file__).resolve().parents[2] / "fixtures" / "make_signboard.py"
@@ -54,7 +54,6 @@ def test_a_hundred_images_that_no_decoder_knows_are_carried_as_they_are(tmp_path
     first = kinefab.export(scene, tmp_path / "first.kinefab", ONE_FILE).path
     again = kinefab.export(first, tmp_path / "again.kinefab", ONE_FILE).path
     assert again.read_bytes() == first.read_bytes()
-    document = read_scene_file(first)
-    (buffer,) = read_buffers(first, document)
+    document, (buffer,) = read_scene(first)
     places = [(entry["data"]["offset"], entry["byteLength"]) for entry in document["images"]]
     assert [bytes(buffer[at : at + length]) for at, length in places] == images

@@ -9,7 +9,7 @@ from pathlib import Path
 
 import kinefab
 import pytest
-from kinefab.unity.back.scene_file import read_buffers, read_scene_file
+from kinefab.unity.back.scene_file import read_scene
 
 
 FIXTURES = Path(__file__).resolve().parents[2] / "fixtures"
@@ -61,8 +61,8 @@ def scene_of(path: Path | list[str]) -> list[object]:
     """Its text and its buffers; or why it was not written."""
     if isinstance(path, list):
         return [path]
-    document = read_scene_file(path)
-    return [dict(document), read_buffers(path, document)]
+    document, buffers = read_scene(path)
+    return [dict(document), buffers]
 
 
 @pytest.mark.parametrize("source", SOURCES, ids=lambda path: f"{path.parent.name}-{path.name}")

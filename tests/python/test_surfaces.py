@@ -16,7 +16,7 @@ from kinefab.geometry.files import read_mesh_file
 from kinefab.geometry.looks.shading import shaded
 from kinefab.geometry.looks.visuals import surface_of
 from kinefab.model import AlphaMode, Mesh
-from kinefab.unity.back.scene_file import read_buffers
+from kinefab.unity.back.scene_file import read_scene
 from trimesh.visual.material import PBRMaterial
 
 RED = (1.0, 0.0, 0.0, 1.0)
@@ -186,7 +186,7 @@ def test_one_colour_of_all_vertices_is_a_surface_many_are_the_mesh_s(tmp_path):
     assert colors(content) == [[1, 0, 0, 1]]
     ball.visual.vertex_colors = np.arange(len(ball.vertices) * 4).reshape(-1, 4).astype(np.uint8)
     content, result = exported(ball, tmp_path)
-    (buffer,) = read_buffers(result.path, content)
+    _, (buffer,) = read_scene(result.path)
     place = content["meshes"][0]["colors"]["offset"]
     held = np.frombuffer(buffer, "<f4", 4 * len(ball.vertices), place).reshape(-1, 4)
     assert (held == result.unity.meshes[0].colors).all() and content["version"] == "1.1"

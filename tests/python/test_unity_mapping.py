@@ -46,7 +46,7 @@ from kinefab.model import (
     freedoms_of,
 )
 from kinefab.spatial import Pose, quaternion_from_matrix, rotation_about, rotation_exp
-from kinefab.unity.back.scene_file import read_buffers
+from kinefab.unity.back.scene_file import read_scene
 from prefab_scenes import png
 
 X, Y, Z = np.eye(3)
@@ -287,7 +287,7 @@ def test_textures_physics_materials_and_sums_are_carried(tmp_path):
     assert (shown["emissionTexture"], shown["occlusionTexture"]) == ({"image": 0}, {"image": 1})
     assert shown["emission"] == [0, 0.5, 2] and "alphaMode" not in shown
     assert [i.get("colorSpace", "sRGB") for i in content["images"]] == ["sRGB", "linear"]
-    (buffer,) = read_buffers(result.path, content)
+    _, (buffer,) = read_scene(result.path)
     for entry in content["images"]:
         assert buffer[entry["data"]["offset"] :][: entry["byteLength"]] == image
 

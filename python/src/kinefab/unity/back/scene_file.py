@@ -16,13 +16,11 @@ from ..rules.text import parsed
 
 
 def read_scene(path: Path) -> tuple[Mapping[str, Any], list[bytes]]:
-    """A scene's JSON and the bytes of its buffers.  Raises KinefabError as the two below."""
-    document = read_scene_file(path)
-    return document, read_buffers(path, document)
+    """A scene's JSON, and the bytes of its buffers, which stand beside it, or in it.
 
-
-def read_scene_file(path: Path) -> Mapping[str, Any]:
-    """The JSON of a scene.  Raises KinefabError when it is missing or breaks a rule, with every place that does."""
+    Raises KinefabError when it is missing, or with every place that breaks a rule: a buffer that is missing, or not the one
+    that the scene was written with, too.
+    """
     path = Path(path)
     try:
         content = _content(path)
@@ -35,7 +33,12 @@ def read_scene_file(path: Path) -> Mapping[str, Any]:
     found = Findings(path)
     document = parsed(content, found)
     check_document(document, found)
-    return document
+    held = next((i for i, entry in enumerate(document.get("buffers", ())) if "uri" not in entry), None)
+    buffers = check_contents(
+        document, lambda index, entry: _buffer(path, entry, index, index == held, found), found
+    )
+    found.refuse()
+    return document, buffers
 
 
 def _content(path: Path) -> bytes:
@@ -45,28 +48,17 @@ def _content(path: Path) -> bytes:
     return path.read_bytes()
 
 
-def read_buffers(path: Path, scene: Mapping[str, Any]) -> list[bytes]:
-    """The bytes of the buffers of a scene that ``read_scene_file`` gave, in order; they stand beside it, or in it.
-
-    Raises KinefabError when one is missing or not the one that the scene was written with, or when what lies in it
-    breaks a rule.
-    """
-    path, found, buffers = Path(path), Findings(Path(path)), list[bytes]()
-    held = next((i for i, entry in enumerate(scene.get("buffers", ())) if "uri" not in entry), None)
-    for index, entry in enumerate(scene.get("buffers", ())):
-        at, length = f"/buffers/{index}", int(entry["byteLength"])
-        try:
-            content = _beside(path, entry["uri"], length) if "uri" in entry else _held(path, length, index == held)
-        except _OtherSize as error:
-            found.add("BUFFER_SIZE", f"{at}/byteLength", found=error, expected=length)
-        except OSError as error:
-            uri = entry.get("uri", "of this file")
-            found.add("BUFFER_MISSING", f"{at}/uri" if "uri" in entry else at, uri=uri, detail=error.strerror)
-        else:
-            buffers.append(content)
-    found.refuse()
-    check_contents(scene, buffers, found)
-    return buffers
+def _buffer(path: Path, entry: Mapping[str, Any], index: int, first: bool, found: Findings) -> bytes | None:
+    """None, and a finding, where there is none of the length that is stated."""
+    at, length = f"/buffers/{index}", int(entry["byteLength"])
+    try:
+        return _beside(path, entry["uri"], length) if "uri" in entry else _held(path, length, first)
+    except _OtherSize as error:
+        found.add("BUFFER_SIZE", f"{at}/byteLength", found=error, expected=length)
+    except OSError as error:
+        uri = entry.get("uri", "of this file")
+        found.add("BUFFER_MISSING", f"{at}/uri" if "uri" in entry else at, uri=uri, detail=error.strerror)
+    return None
 
 
 class _OtherSize(Exception):

@@ -4,18 +4,28 @@ from __future__ import annotations
 
 import hashlib
 import re
+from collections.abc import Callable
 
 from .findings import Entry, Findings
 
 _HASH = re.compile("[0-9a-f]{64}")
 
 
-def check_buffer(buffer: Entry, at: str, found: Findings) -> None:
-    """What it says of itself."""
-    if not is_hash(buffer["sha256"]):
+def check_buffer(buffer: Entry, at: str, read: Callable[[], bytes | None], found: Findings) -> bytes | None:
+    """Its bytes, as long as it says; None where nobody should look into them.  read: gives them, or None and says why."""
+    named = is_hash(buffer["sha256"])
+    if not named:
         found.add("SHA256_INVALID", f"{at}/sha256")
     if "uri" in buffer and not is_safe(buffer["uri"]):
         found.add("BUFFER_URI_UNSAFE", f"{at}/uri", uri=buffer["uri"])
+        return None
+    content = read()
+    if content is None or not named:
+        return None
+    if hashlib.sha256(content).hexdigest() != buffer["sha256"]:
+        found.add("BUFFER_SHA256", f"{at}/sha256", uri=buffer.get("uri", "What lies in this file"))
+        return None
+    return content
 
 
 def is_hash(text: str) -> bool:
@@ -43,9 +53,3 @@ def check_place(place: Entry, length: int, buffers: list[Entry], at: str, found:
         found.add("BUFFER_OVERRUN", at, end=offset + length, length=ends)
         return False
     return True
-
-
-def check_bytes(buffer: Entry, content: bytes, at: str, found: Findings) -> None:
-    """content: of the length that it states."""
-    if hashlib.sha256(content).hexdigest() != buffer["sha256"]:
-        found.add("BUFFER_SHA256", f"{at}/sha256", uri=buffer.get("uri", "What lies in this file"))

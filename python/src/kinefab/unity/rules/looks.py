@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
+from .buffers import check_place
 from .findings import Entry, Findings
 
 TEXTURES = (
@@ -27,8 +28,14 @@ def check_materials(materials: Sequence[Entry], images: int, found: Findings) ->
                 found.reference(material[name]["image"], "images", images, f"/materials/{index}/{name}/image")
 
 
-def check_image(image: Entry, content: bytes, at: str, found: Findings) -> None:
-    """That it begins as its kind does; it is not decoded.  content: of its file."""
-    kind: str = image["mediaType"]
-    if not content.startswith(BEGINNINGS.get(kind, b"")):
+def check_image(
+    image: Entry, at: str, buffers: list[Entry], contents: Sequence[bytes | None], found: Findings
+) -> None:
+    """That its file lies in its buffer and begins as its kind does; it is not decoded."""
+    place, length, kind = image["data"], image["byteLength"], image["mediaType"]
+    if length < 0 or not check_place(place, length, buffers, f"{at}/data", found):
+        return
+    content = contents[place["buffer"]]
+    beginning = BEGINNINGS.get(kind, b"")
+    if content is not None and not content[place["offset"] : place["offset"] + length].startswith(beginning):
         found.add("IMAGE_NOT_OF_KIND", f"{at}/data", mediaType=kind)

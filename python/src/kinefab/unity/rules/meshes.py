@@ -15,17 +15,25 @@ FLOATS = {"positions": 3, "normals": 3, **dict.fromkeys(UV_SETS, 2), "tangents":
 INDICES: Mapping[str, type[np.unsignedinteger]] = {"uint16": np.uint16, "uint32": np.uint32}
 
 
-def check_mesh(mesh: Entry, at: str, buffers: list[Entry], found: Findings) -> None:
-    """What the text says of it."""
+def check_mesh(
+    mesh: Entry, at: str, buffers: list[Entry], contents: Sequence[bytes | None], found: Findings
+) -> None:
+    """contents: of each buffer, None where it is not sound."""
     for axis, extent in enumerate(mesh["bounds"]["extents"]):
         if extent < 0:
             found.add("NUMBER_OUT_OF_RANGE", f"{at}/bounds/extents/{axis}", value=extent, range="0 or above")
     _check_submeshes(mesh["submeshes"], at, found)
-    for name, width in FLOATS.items():
-        if name in mesh:
-            check_place(mesh[name], 4 * width * max(0, mesh["vertexCount"]), buffers, f"{at}/{name}", found)
+    there = {
+        name: check_place(mesh[name], 4 * width * max(0, mesh["vertexCount"]), buffers, f"{at}/{name}", found)
+        for name, width in FLOATS.items()
+        if name in mesh
+    }
     length = _index_count(mesh) * _index_type(mesh).itemsize
-    check_place(mesh["indices"], length, buffers, f"{at}/indices", found)
+    there["indices"] = check_place(mesh["indices"], length, buffers, f"{at}/indices", found)
+    if there["positions"] and (content := contents[mesh["positions"]["buffer"]]) is not None:
+        _check_positions(mesh, content, at, found)
+    if there["indices"] and (content := contents[mesh["indices"]["buffer"]]) is not None:
+        _check_indices(mesh, content, at, found)
 
 
 def _check_submeshes(submeshes: Sequence[Entry], at: str, found: Findings) -> None:
@@ -40,15 +48,17 @@ def _check_submeshes(submeshes: Sequence[Entry], at: str, found: Findings) -> No
         following = start + count
 
 
-def check_numbers(mesh: Entry, at: str, buffers: Sequence[bytes], found: Findings) -> None:
-    """What lies in the buffers: each position is a number, each index names a vertex."""
-    place, count = mesh["positions"], mesh["vertexCount"]
-    positions = np.frombuffer(buffers[place["buffer"]], "<f4", 3 * count, place["offset"])
+def _check_positions(mesh: Entry, content: bytes, at: str, found: Findings) -> None:
+    positions = np.frombuffer(content, "<f4", 3 * max(0, mesh["vertexCount"]), mesh["positions"]["offset"])
     finite = np.isfinite(positions)
     if not finite.all():
         found.add("MESH_POSITION_NOT_FINITE", f"{at}/positions", vertex=int(np.argmin(finite)) // 3)
-    place = mesh["indices"]
-    indices = np.frombuffer(buffers[place["buffer"]], _index_type(mesh), _index_count(mesh), place["offset"])
+
+
+def _check_indices(mesh: Entry, content: bytes, at: str, found: Findings) -> None:
+    """Each names a vertex."""
+    count = mesh["vertexCount"]
+    indices = np.frombuffer(content, _index_type(mesh), _index_count(mesh), mesh["indices"]["offset"])
     largest = int(indices.max(initial=0))
     if largest >= count:
         found.add("MESH_INDEX_RANGE", f"{at}/indices", index=largest, count=count)

@@ -1,21 +1,22 @@
-"""A whole scene against all rules: first its text, then the bytes of its buffers."""
+"""A whole scene against all rules: first what it says by itself, then what lies in its buffers."""
 
 from __future__ import annotations
 
 import re
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
+from functools import partial
 from typing import Any
 
 from .animations import check_animations
 from .bodies import check_body
-from .buffers import check_buffer, check_bytes, check_place, is_hash
+from .buffers import check_buffer, is_hash
 from .couplings import check_couplings
 from .findings import Entry, Findings
 from .hierarchy import Hierarchy, check_objects
 from .joints import check_joint
 from .links import LINK, check_link
 from .looks import check_image, check_materials
-from .meshes import check_mesh, check_numbers
+from .meshes import check_mesh
 from .shape import check_shape
 
 FORMAT = "kinefab.scene"
@@ -28,7 +29,7 @@ _VERSION = re.compile(r"(0|[1-9][0-9]*)\.(0|[1-9][0-9]*)", re.ASCII)
 
 
 def check_document(document: Any, found: Findings) -> None:
-    """Everything that the text says.  Raises KinefabError with all that is an error."""
+    """Everything but what lies in the buffers.  Raises KinefabError where it is no scene at all."""
     _demand_known(document, found)
     check_shape(document, found)
     scene: Entry = document
@@ -40,44 +41,34 @@ def check_document(document: Any, found: Findings) -> None:
     check_animations(scene.get("animations", ()), len(places.objects), found)
     _check_pairs(scene.get("ignoredCollisions", ()), len(places.objects), found)
     _check_told(scene, len(places.objects), found)
-    buffers = list(scene.get("buffers", ()))
-    for index, buffer in enumerate(buffers):
-        check_buffer(buffer, f"/buffers/{index}", found)
-    for index, mesh in enumerate(scene.get("meshes", ())):
-        check_mesh(mesh, f"/meshes/{index}", buffers, found)
-    for index, image in enumerate(scene.get("images", ())):
-        check_place(image["data"], max(0, image["byteLength"]), buffers, f"/images/{index}/data", found)
-    found.refuse()
 
 
-def check_contents(scene: Entry, buffers: Sequence[bytes], found: Findings) -> None:
-    """Everything that lies in the buffers, which are as long as the document says.  Raises KinefabError."""
-    for index, (buffer, content) in enumerate(zip(scene.get("buffers", ()), buffers)):
-        check_bytes(buffer, content, f"/buffers/{index}", found)
-    found.refuse()
+def check_contents(scene: Entry, read: Callable[[int, Entry], bytes | None], found: Findings) -> list[bytes]:
+    """All that lies in the buffers, and those that are sound.  read: the bytes of one, as long as it says, or None, and says
+    why."""
+    buffers: list[Entry] = list(scene.get("buffers", ()))
+    contents = [
+        check_buffer(buffer, f"/buffers/{index}", partial(read, index, buffer), found)
+        for index, buffer in enumerate(buffers)
+    ]
     for index, mesh in enumerate(scene.get("meshes", ())):
-        check_numbers(mesh, f"/meshes/{index}", buffers, found)
+        check_mesh(mesh, f"/meshes/{index}", buffers, contents, found)
     for index, image in enumerate(scene.get("images", ())):
-        offset = image["data"]["offset"]
-        content = buffers[image["data"]["buffer"]][offset : offset + image["byteLength"]]
-        check_image(image, content, f"/images/{index}", found)
-    found.refuse()
+        check_image(image, f"/images/{index}", buffers, contents, found)
+    return [content for content in contents if content is not None]
 
 
 def _demand_known(document: Any, found: Findings) -> None:
     """Of another format or a later version nothing else is told: it may mean another thing there."""
     entry: Any = document if isinstance(document, dict) else {}
     if isinstance(document, dict) and entry.keys().isdisjoint(EVERY):
-        found.add("FORMAT_MISSING", "")
-        found.refuse()
+        found.refuse_for("FORMAT_MISSING")
     version = entry.get("version", "")
     known = _VERSION.fullmatch(version) if isinstance(version, str) else None
     if entry.get("format", FORMAT) != FORMAT:
-        found.add("FORMAT_UNKNOWN", "/format", format=str(entry["format"])[:60])
-        found.refuse()
+        found.refuse_for("FORMAT_UNKNOWN", "/format", format=str(entry["format"])[:60])
     elif known is not None and known[1] != MAJOR:
-        found.add("VERSION_UNSUPPORTED", "/version", version=version)
-        found.refuse()
+        found.refuse_for("VERSION_UNSUPPORTED", "/version", version=version)
     elif known is None and "version" in entry:
         found.add("VERSION_INVALID", "/version", version=str(version)[:60])
 

@@ -7,6 +7,7 @@ no value of its type is an early fault: with one of them nothing else is looked 
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cache
@@ -104,9 +105,10 @@ def _mismatch(expected: str, value: object) -> Faults:
     return (Fault("", "TYPE_MISMATCH", {"expected": expected, "found": there}),)
 
 
-def _unheld(value: float) -> Faults:
-    code = "NUMBER_NOT_FINITE" if abs(value) > 1.7976931348623157e308 else "NUMBER_BEYOND_FLOAT32"
-    return (Fault("", code, {"number": str(value)[:60]}),)
+def _unheld(value: float) -> Faults | None:
+    if type(value) is float and math.isinf(value):
+        return None  # the text has told it, wherever it stands
+    return (Fault("", "NUMBER_BEYOND_FLOAT32", {"number": str(value)[:60]}),)
 
 
 def _number(stated: Mapping[str, Any], key: str) -> Rule:
@@ -147,6 +149,8 @@ def _integer(stated: Mapping[str, Any], key: str) -> Rule:
 
     def rule(value: Any) -> Faults | None:
         if type(value) is int and least <= value <= most:
+            return None
+        if type(value) is float and math.isinf(value):
             return None
         if not _is_whole(value):
             return _mismatch("an integer", value)

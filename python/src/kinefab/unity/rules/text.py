@@ -15,6 +15,8 @@ from ..container import Damaged, OtherVersion, chunks_of, is_container
 from .findings import Findings
 
 INT = 2**31
+LONG = 309
+"""So many digits a double may not hold, and still more Python does not like to read."""
 MAX_DEPTH = 64
 """Deepest nesting, as in C#."""
 
@@ -37,7 +39,10 @@ class _Constant(ValueError):
 
 
 def parsed(content: bytes, found: Findings) -> Any:
-    """The value of a scene file, text or binary.  Raises KinefabError with the place where it is no JSON."""
+    """The value of a scene file, text or binary; what no program could write again is told, and refused with what else is.
+
+    Raises KinefabError with the place where it is no JSON.
+    """
     text = _text(content, found)
     _demand_depth(text, found)
     endless: list[str] = []
@@ -53,7 +58,6 @@ def parsed(content: bytes, found: Findings) -> Any:
             _tell_endless(value, found)
         if _HALF.search(text):
             _tell_halves(value, found)
-        found.refuse()
         return value
     found.refuse()
     raise AssertionError("what is no JSON was told")
@@ -113,13 +117,12 @@ def _loads(text: str, endless: list[str]) -> Any:
             endless.append(text)
         return value
 
-    hooks: Any = {"parse_constant": _refuse, "object_pairs_hook": _object, "parse_float": number}
-    try:
-        return json.loads(text, **hooks)
-    except (json.JSONDecodeError, _Constant):
-        raise
-    except ValueError:  # an integer of more digits than Python likes to read
-        return json.loads(text, parse_int=number, **hooks)
+    def whole(text: str) -> float:
+        return int(text) if len(text) < LONG else number(text)
+
+    return json.loads(
+        text, parse_constant=_refuse, object_pairs_hook=_object, parse_float=number, parse_int=whole
+    )
 
 
 def _refuse(constant: str) -> float:
@@ -130,7 +133,7 @@ def _object(pairs: list[tuple[str, Any]]) -> dict[str, Any]:
     entry = dict(pairs)
     if len(entry) == len(pairs):
         return entry
-    twice = Twice(entry)
+    twice = Twice(reversed(pairs))  # the first of a name counts, as in C#
     counts = Counter(name for name, _ in pairs)
     twice.names = [name for name, count in counts.items() for _ in range(count - 1)]
     return twice

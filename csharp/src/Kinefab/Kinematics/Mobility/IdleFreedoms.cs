@@ -6,33 +6,41 @@ using Kinefab.Numerics;
 namespace Kinefab.Kinematics;
 
 /// <summary>
-/// Motions of one body of a loop, or of several that two joints hold between others and that move as one, while all others stand still: a
-/// rod's spin between its two balls, a ram's. The joints round them leave them a twist in common. What hangs on them and is in no loop
-/// with them is one of the others. A block's only freedom is what it does, and not idle.
+/// Idle freedoms: motions of one body of a loop, or of several as one, while all others stand still, as a rod's spin between its two balls or a
+/// ram's about its line. They count in the mobility and move nothing else.
+/// <para>
+/// In the graph of bodies (nodes, <see cref="JointGraph"/>) and joints (edges) such a group is held by the edges round it, and may move by the
+/// twists that all of these leave it in common. Candidates are single nodes (AddSingle), and what lies between two edges that together cut a
+/// block (AddBetween; of a class of such edges Sharing takes the pairs that can have a twist in common); what hangs on them without a loop is one
+/// of the others. Of the twists in common counts what couplings leave, goes on as a finite motion (ThatGoOn), and is no mixture of idle freedoms
+/// found before (IsNew). A block's only freedom is what it does, and not idle.
+/// </para>
+/// <para>Twists have six entries, linear then angular, at the mechanism's origin and in its lengths; all tolerances below are without unit.</para>
 /// </summary>
 internal sealed class IdleFreedoms
 {
-    // How far the cosine between two joints' twists, squared, may be from 1.
-    private const double Shared = 1e-12;
+    private const int TwistSize = 6;
 
-    // Where velocities are obstructed, motions are known to a step's curvature: the share of one up to which a block has no part in it, and
-    // what may be wrong in a twist that is taken from one.
-    private const double Curved = 1e-2;
-    private const double CurvedNoise = 1e-3;
+    // 1 less the squared cosine between two twists up to which they are one that both joints leave, of rows that are known to rounding; those that
+    // are known less well allow the square of their noise, see Tolerance.
+    private const double MostSkew = 1e-12;
 
-    // What of a motion is left beside those already found makes another one of it, beyond what may be wrong in it, so many times.
-    private const double New = 10;
+    // Largest difference of two unit twists, along any direction, that are one at MostSkew; larger by the root of what Tolerance allows beyond.
+    private const double MostApart = 4e-6;
 
-    // Share of an exactly known motion up to which a block has no part in it.
-    private const double Sure = 1e-6;
+    // A direction, about one long and as good as any other, along which twists are sorted to find those that are near each other.
+    private static readonly double[] SortAxis = { 0.37, 0.43, 0.29, 0.53, 0.41, 0.39 };
 
-    private const int Width = 6;
+    // Share of a motion up to which a block has no part in it: of motions known exactly, and of those that were followed by steps since
+    // something obstructs velocities, which are known to a step's curvature.
+    private const double LeastPart = 1e-6;
+    private const double LeastPartOfFollowed = 1e-2;
 
-    // Difference of two unit twists, along any direction, beyond which they are not shared.
-    private const double Near = 4e-6;
+    // What may be wrong in a twist that is taken from a motion that was followed.
+    private const double NoiseOfFollowed = 1e-3;
 
-    // A direction, about one long, that favours no twist, to sort them along.
-    private static readonly double[] Aslant = { 0.37, 0.43, 0.29, 0.53, 0.41, 0.39 };
+    // A motion is another one than those already found where more is left of it beside them than may be wrong in it, so many times.
+    private const double LeastNew = 10;
 
     private readonly Mechanism _mechanism;
     private readonly IndependentLinkages _parts;
@@ -146,7 +154,7 @@ internal sealed class IdleFreedoms
 
         int found = 0;
         List<double[]> going = ThatGoOn(nodes, twists, cancellation);
-        double noise = going.Count < twists.Count ? CurvedNoise : Math.Sqrt(Tolerance(edge));
+        double noise = going.Count < twists.Count ? NoiseOfFollowed : Math.Sqrt(Tolerance(edge));
         foreach (double[] twist in going)
         {
             found += IsNew(nodes, twist, noise) ? 1 : 0; // a ram's spin is that of its tube and of its piston, if these turn
@@ -219,7 +227,7 @@ internal sealed class IdleFreedoms
         }
 
         IReadOnlyList<double[]> motions = loop.Motions;
-        var moved = new double[Width * nodes.Count, motions.Count];
+        var moved = new double[TwistSize * nodes.Count, motions.Count];
         for (int m = 0; m < motions.Count; m++)
         {
             double[] first = TwistOf(loop, BodyOf(nodes.Min), motions[m]);
@@ -227,7 +235,7 @@ internal sealed class IdleFreedoms
             foreach (int node in nodes)
             {
                 double[] twist = TwistOf(loop, BodyOf(node), motions[m]);
-                for (int i = 0; i < Width; i++)
+                for (int i = 0; i < TwistSize; i++)
                 {
                     moved[row++, m] = twist[i] - first[i];
                 }
@@ -235,7 +243,7 @@ internal sealed class IdleFreedoms
         }
 
         // Beside a steep rack a motion that is known exactly may be a small share of all that move.
-        return new SingularValues(moved).Rank(loop.Finite < loop.FirstOrder ? Curved : Math.Max(Sure, loop.Here.Noise));
+        return new SingularValues(moved).Rank(loop.Finite < loop.FirstOrder ? LeastPartOfFollowed : Math.Max(LeastPart, loop.Here.Noise));
 
         int BodyOf(int node) => _graph.Members[node].Count == 0 ? -1 : loop.Part.IndexOf(_graph.Members[node][0]);
     }
@@ -256,7 +264,7 @@ internal sealed class IdleFreedoms
     private double Tolerance(int edge)
     {
         double noise = _graph.Blocks[edge] < 0 ? 0 : _loops[_graph.Blocks[edge]].Here.Noise;
-        return Math.Max(Shared, noise * noise);
+        return Math.Max(MostSkew, noise * noise);
     }
 
     // Pairs of a class that may share a twist, the nearest first. Hinges, of which a loop may have hundreds, share theirs only where it is
@@ -269,7 +277,7 @@ internal sealed class IdleFreedoms
         {
             if (_graph.Twists(edges[i]).Count == 1)
             {
-                plain.Add((Math.Abs(DenseVector.Dot(_graph.Twists(edges[i])[0], Aslant)), i));
+                plain.Add((Math.Abs(DenseVector.Dot(_graph.Twists(edges[i])[0], SortAxis)), i));
                 continue;
             }
 
@@ -283,7 +291,7 @@ internal sealed class IdleFreedoms
         }
 
         plain.Sort();
-        double near = Near * Math.Sqrt(Tolerance(edges[0]) / Shared);
+        double near = MostApart * Math.Sqrt(Tolerance(edges[0]) / MostSkew);
         for (int k = 0; k < plain.Count; k++)
         {
             for (int l = k + 1; l < plain.Count && plain[l].Key - plain[k].Key <= near; l++)
@@ -320,7 +328,7 @@ internal sealed class IdleFreedoms
         }
 
         rest = Math.Sqrt(rest);
-        if (rest <= New * noise)
+        if (rest <= LeastNew * noise)
         {
             return false;
         }
@@ -350,7 +358,7 @@ internal sealed class IdleFreedoms
         {
             if (!motion.TryGetValue(node, out double[]? own))
             {
-                motion.Add(node, own = new double[Width]);
+                motion.Add(node, own = new double[TwistSize]);
             }
 
             DenseVector.Add(own, -along, part);

@@ -73,6 +73,23 @@ def test_idle_freedoms_of_a_single_loop_are_those_of_bodies_that_turn_as_one():
         assert [{found.source.nodes[n].name for n in i.nodes} for i in found.idle] == expected
 
 
+@pytest.mark.parametrize("order", ["abcd", "bcda", "cdab", "dabc"])
+def test_a_floating_loop_has_the_same_idle_freedoms_from_every_root(order):
+    """Two plates turn against the other two about one axis; what hangs on the first holds it, and what hangs on the third by the same
+    axis holds nothing."""
+    scene = kinefab.Scene()
+    plates = {name: scene.add_part(name, mass=1.0, translation=(0.2 * ord(name), 0.1, 0.3)) for name in order}
+    held, near, far = (scene.add_part(name, mass=1.0) for name in ("held", "near", "far"))
+    scene.add_hinge(plates["a"], plates["b"], point=(0, 0, 0), axis=(0, 0, 1))
+    scene.add_ball(plates["b"], plates["c"], point=(0.5, 0, 0.1))
+    scene.add_hinge(plates["c"], plates["d"], point=(0, 0, 0.4), axis=(0, 0, 1))
+    scene.add_ball(plates["d"], plates["a"], point=(0.3, 0.6, 0.2))
+    scene.add_hinge(plates["a"], held, point=(1, 1, 0), axis=(1, 0, 0))
+    for part in (near, far):
+        scene.add_hinge(plates["c"], part, point=(0, 0, 0), axis=(0, 0, 1))
+    assert sum(idle.count for idle in analyse(scene).idle) == 1
+
+
 def test_a_leg_that_only_seems_to_buckle_is_not_idle():
     """M45: four velocities, no motion, so none that moves nothing else."""
     assert analysed("M45").idle == []

@@ -199,6 +199,28 @@ public class MobilityTests
         Assert.That(report.Idle.Select(i => string.Join(" ", i.GameObjects)), Is.EquivalentTo(new[] { $"{middle}", $"{tube} {middle} {piston}" }));
     }
 
+    // Nothing is grounded: two plates turn against the other two about one axis. What hangs on the first holds it, and what hangs on the third
+    // by the same axis holds nothing, whichever of them the count begins with.
+    [TestCase("abcd")]
+    [TestCase("bcda")]
+    [TestCase("cdab")]
+    [TestCase("dabc")]
+    public void Mobility_FloatingLoop_HasTheSameIdleFreedomsFromEveryRoot(string order)
+    {
+        var scene = new MechanismScene();
+        var plates = order.ToDictionary(name => name, name => scene.Body($"{name}", new Vector3d(0.2 * (name - 'a'), 0.1, 0.3)));
+        int held = scene.Body("held", new Vector3d(1, 1, 0));
+        scene.Hinge(plates['b'], plates['a'], Vector3d.Zero, Vector3d.UnitZ);
+        scene.Ball(plates['c'], plates['b'], new Vector3d(0.5, 0, 0.1));
+        scene.Hinge(plates['d'], plates['c'], new Vector3d(0, 0, 0.4), Vector3d.UnitZ);
+        scene.Ball(plates['a'], plates['d'], new Vector3d(0.3, 0.6, 0.2));
+        scene.Hinge(held, plates['a'], new Vector3d(1, 1, 0), Vector3d.UnitX);
+        scene.Hinge(scene.Body("near", Vector3d.UnitX), plates['c'], Vector3d.Zero, Vector3d.UnitZ);
+        scene.Hinge(scene.Body("far", -Vector3d.UnitX), plates['c'], Vector3d.Zero, Vector3d.UnitZ);
+        MobilityReport report = MobilityAnalysis.Of(scene.Mechanism());
+        Assert.That((report.Mobility, report.Idle.Sum(idle => idle.Count)), Is.EqualTo((11, 1)));
+    }
+
     // Three stretched legs hold the platform: each seems to buckle by itself, and none does.
     [Test]
     public void Mobility_ThreeStretchedLegs_HaveNoIdleFreedom()

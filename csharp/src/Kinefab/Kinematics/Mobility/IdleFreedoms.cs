@@ -95,33 +95,43 @@ internal sealed class IdleFreedoms
         return idle._found;
     }
 
-    // One node by itself; a chain's end is in no loop. A root that is not the ground hangs on nothing else.
+    // One node by itself; a chain's end is in no loop. What floats hangs on none of its neighbours.
     private void AddSingle(int node, CancellationToken cancellation)
     {
         List<int> edges = _cuts.EdgesOf(node);
-        if (edges.Count < 2)
+        int up = edges.FindIndex(edge => _cuts.BlockOf[edge] >= 0 && (Floats(node) || edge == _cuts.ParentEdges[node]));
+        if (up >= 0 && Left(edges[up]) > 0)
         {
-            return;
-        }
-
-        int up = _cuts.ParentEdges[node] >= 0 ? _cuts.ParentEdges[node] : edges[0];
-        if (_cuts.BlockOf[up] >= 0 && Left(up) > 0)
-        {
-            Add(new List<int> { node }, up, WhatAllLeave(_graph.Twists(up), edges, Tolerance(up)), cancellation);
+            Add(new List<int> { node }, edges[up], WhatAllLeave(_graph.Twists(edges[up]), edges, Tolerance(edges[up])), cancellation);
         }
     }
 
-    // What lies between two edges that cut a block, away from its root.
+    // Whether nothing holds a node to the ground: which of its neighbours is the root tells nothing then.
+    private bool Floats(int node) => _cuts.RootOf[node] != 0;
+
+    // What lies between two edges that cut a block, away from its root; of what floats what lies on the other side too.
     private void AddBetween(int first, int last, CancellationToken cancellation)
     {
         int begin = _cuts.Lower(first);
         (int end, int after) = _cuts.IsOfTree(last) ? (_cuts.Upper(last), _cuts.Lower(last)) : (_cuts.Lower(last), _cuts.Upper(last));
-        double shared = Tolerance(first);
         if (begin == end || _cuts.Upper(first) == after || Left(first) == 0)
         {
             return; // one node, or all that hangs on one
         }
 
+        (List<int> inside, List<double[]> twists) = Side(begin, first, last);
+        Add(inside, first, twists, cancellation);
+        if (Floats(begin))
+        {
+            (List<int> outside, List<double[]> others) = Side(_cuts.Upper(first), first, last);
+            Add(outside, first, others, cancellation);
+        }
+    }
+
+    // The nodes that two edges leave beside one, and the twists by which they move as one while all others stand still.
+    private (List<int> Members, List<double[]> Twists) Side(int begin, int first, int last)
+    {
+        double shared = Tolerance(first);
         List<double[]> twists = TwistSpan.Common(_graph.Twists(first), _graph.Twists(last), shared);
         var members = new List<int> { begin };
         var seen = new HashSet<int> { begin };
@@ -140,7 +150,7 @@ internal sealed class IdleFreedoms
             }
         }
 
-        Add(members, first, twists, cancellation);
+        return (members, twists);
     }
 
     private void Add(List<int> nodes, int edge, List<double[]> twists, CancellationToken cancellation)
@@ -208,8 +218,31 @@ internal sealed class IdleFreedoms
                 isTied &= _graph.Blocks[edge] >= 0;
             }
 
+            if (Floats(nodes.Min))
+            {
+                KnowAllAsOne(nodes);
+            }
+
             int count = isTied ? FreedomsOf(nodes, _loops[_graph.Blocks[edges[0]]], cancellation) : int.MaxValue; // of a block that nothing ties, any number
             _left.Add(block, count < 2 ? 0 : count);
+        }
+    }
+
+    // A motion of all that floats is no motion of some beside the others: what is known besides it is told apart by how it moves against them.
+    private void KnowAllAsOne(SortedSet<int> nodes)
+    {
+        for (int i = 0; i < TwistSize; i++)
+        {
+            var parts = new List<(int Node, double[] Twist)>();
+            foreach (int node in nodes)
+            {
+                var twist = new double[TwistSize];
+                twist[i] = 1 / Math.Sqrt(nodes.Count);
+                parts.Add((node, twist));
+                (_knownOf[node] ??= new List<int>()).Add(_known.Count);
+            }
+
+            _known.Add((0, parts.ToArray()));
         }
     }
 

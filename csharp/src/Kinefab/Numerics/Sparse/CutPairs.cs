@@ -37,6 +37,7 @@ internal sealed class CutPairs
         _labels = new ulong[edges.Length];
         BlockOf = new int[edges.Length];
         ParentEdges = new int[nodes];
+        RootOf = new int[nodes];
         Array.Fill(_depths, -1);
         Array.Fill(ParentEdges, -1);
         Array.Fill(BlockOf, -1);
@@ -56,6 +57,9 @@ internal sealed class CutPairs
 
     /// <summary>For each node the edge that leads to the root; -1 for a root.</summary>
     public int[] ParentEdges { get; }
+
+    /// <summary>For each node the root of what it hangs together with.</summary>
+    public int[] RootOf { get; }
 
     /// <summary>Edges of which any two cut a block, from the root outwards, and then back to it: between two of them lies what does not hang on the root.</summary>
     public List<List<int>> Classes { get; }
@@ -114,6 +118,7 @@ internal sealed class CutPairs
         void Enter(int node, int depth)
         {
             _depths[node] = depth;
+            RootOf[node] = root;
             low[node] = depth;
             label[node] = 0;
             path.Push((node, 0));

@@ -14,7 +14,7 @@ from dataclasses import dataclass
 @dataclass(slots=True, eq=False)
 class CutPairs:
     """edges: the two nodes of each, no two alike.  edges_of: those of each node.  depth: of each node in the search's tree.
-    parent: for each node the edge that leads to its root, -1 for a root.  block: for each edge a number that its block
+    parent: for each node the edge that leads to its root, -1 for a root.  root: of each node.  block: for each edge a number that its block
     has alone, -1 for one that is on no circle.
 
     classes: edges of which any two cut a block, from the root outwards, and then back to it: what lies between two of
@@ -25,6 +25,7 @@ class CutPairs:
     edges_of: list[list[int]]
     depth: list[int]
     parent: list[int]
+    root: list[int]
     block: list[int]
     classes: list[list[int]]
 
@@ -52,7 +53,7 @@ def cut_pairs(nodes: int, edges: list[tuple[int, int]]) -> CutPairs:
     for edge, ends in enumerate(edges):
         for node in ends:
             edges_of[node].append(edge)
-    found = CutPairs(edges, edges_of, [-1] * nodes, [-1] * nodes, [-1] * len(edges), [])
+    found = CutPairs(edges, edges_of, [-1] * nodes, [-1] * nodes, list(range(nodes)), [-1] * len(edges), [])
     label = [0] * len(edges)
     draw = random.Random(1)
     for root in range(nodes):
@@ -84,7 +85,7 @@ def _search(found: CutPairs, root: int, label: list[int], draw: random.Random) -
             other = found.other(edge, node)
             if depth[other] < 0:
                 open_edges.append(edge)
-                parent[other], depth[other] = edge, depth[node] + 1
+                parent[other], depth[other], found.root[other] = edge, depth[node] + 1, root
                 low[other], around[other] = depth[other], 0
                 path.append((other, 0))
             elif edge != parent[node] and depth[other] < depth[node]:

@@ -57,6 +57,7 @@ def idle_freedoms(assembly: Assembly) -> list[IdleFreedom]:
     if not assembly.freedoms or not len(assembly.pairs):
         return []
     search = _search_of(assembly)
+    search.know_all_as_one()
     found = list(search.singles())
     for edges in search.cuts.classes:
         for first, last in _sharing(edges, search.twists, search.tolerance(edges[0])):
@@ -88,33 +89,57 @@ class _Search:
         """``ALONE``, or what noise in an edge's part makes of it."""
         return max(ALONE, self.assembly.freedoms[self.part[edge]].noise ** 2)
 
+    def know_all_as_one(self) -> None:
+        """A motion of all that floats is no motion of some beside the others: what is known besides it is told apart by how it moves
+        against them."""
+        nodes_of: dict[int, set[int]] = {}
+        for edge, block in enumerate(self.cuts.block):
+            if block >= 0 and self._floats(self.cuts.edges[edge][0]):
+                nodes_of.setdefault(block, set()).update(self.cuts.edges[edge])
+        for nodes in nodes_of.values():
+            for twist in np.eye(6) / np.sqrt(len(nodes)):
+                for node in nodes:
+                    self.known_of.setdefault(node, []).append(len(self.known))
+                self.known.append(({node: twist for node in nodes}, 0.0))
+
     def singles(self) -> Iterator[IdleFreedom]:
-        """Nodes by themselves.  A chain's end is in no loop; a root that is not the ground hangs on nothing else."""
+        """Nodes by themselves.  A chain's end is in no loop; what floats hangs on none of its neighbours."""
         for node in range(1, len(self.bodies)):
             edges = self.cuts.edges_of[node]
-            if len(edges) < 2:
-                continue
-            up = self.cuts.parent[node] if self.cuts.parent[node] >= 0 else edges[0]
-            if self.cuts.block[up] >= 0:
+            ways = edges if self._floats(node) else [self.cuts.parent[node]]
+            up = next((edge for edge in ways if self.cuts.block[edge] >= 0), -1)
+            if up >= 0:
                 twists = self.twists[up]
                 for edge in edges:
                     twists = _common(twists, self.twists[edge], self.tolerance(up))
                 yield from self._alone([node], up, twists)
 
+    def _floats(self, node: int) -> bool:
+        """Whether nothing holds a node to the ground: which of its neighbours is the root tells nothing then."""
+        return self.cuts.root[node] != 0
+
     def between(self, first: int, last: int) -> Iterator[IdleFreedom]:
-        """What lies between two edges that cut a block, away from its root."""
+        """What lies between two edges that cut a block, away from its root; of what floats what lies on the other side too."""
         cuts = self.cuts
         begin, end, after = cuts.lower(first), cuts.upper(last), cuts.lower(last)
         if not cuts.of_tree(last):
             end, after = after, end
         if begin == end or cuts.upper(first) == after or not self.left[cuts.block[first]]:
             return  # one node, or all that hangs on one
-        tolerance = self.tolerance(first)
+        inside, twists = self._side(begin, first, last)
+        yield from self._alone(inside, first, twists)
+        if self._floats(begin):
+            outside, twists = self._side(cuts.upper(first), first, last)
+            yield from self._alone(outside, first, twists)
+
+    def _side(self, begin: int, first: int, last: int) -> tuple[list[int], Array]:
+        """The nodes that two edges leave beside one, and the twists by which they move as one while all others stand still."""
+        cuts, tolerance = self.cuts, self.tolerance(first)
         twists = _common(self.twists[first], self.twists[last], tolerance)
         nodes, seen = [begin], {begin}
         for node in nodes:
             if not twists.shape[1]:
-                return
+                break
             for edge in cuts.edges_of[node]:
                 other = cuts.other(edge, node)
                 if cuts.block[edge] < 0 or cuts.block[edge] != cuts.block[first]:
@@ -122,7 +147,7 @@ class _Search:
                 elif edge not in (first, last) and other not in seen:
                     seen.add(other)
                     nodes.append(other)
-        yield from self._alone(nodes, first, twists)
+        return nodes, twists
 
     def _alone(self, nodes: list[int], edge: int, twists: Array) -> Iterator[IdleFreedom]:
         """Of one set of nodes what is not known.  twists: what all the joints round them leave."""

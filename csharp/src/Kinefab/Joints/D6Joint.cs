@@ -269,6 +269,9 @@ internal sealed class D6Joint : JointModel
         }
     }
 
+    /// <summary>Whether a coupling holds one of its angles that turns about other axes too, see <see cref="Couple"/>.</summary>
+    public bool IsCoupledAmongOthers => _couplings != null;
+
     /// <summary>Notes that a coupling holds an angle.</summary>
     /// <param name="axis">0, 1 or 2.</param>
     /// <param name="coupling">What it says of the angle.</param>

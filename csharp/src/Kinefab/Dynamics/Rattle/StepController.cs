@@ -16,10 +16,12 @@ internal sealed partial class StepController
     private const int MaxRattleHalvings = 12;
 
     // The most that steps keep where limits and drives act: blows end the long account of energy for which their parts stay even.
-    private const int MaxKeptHalvings = 6;
+    private const int MaxKeptHalvings = 5;
 
-    // Tries in a step, beside those that it begins with, after which parts that fail are left to the method that needs no chord.
-    private const int MostTries = 36;
+    // Tries in a step, beside those that it begins with, after which drives are slowed down, and those with slower drives after which parts that fail are left
+    // to the method that needs no chord.
+    private const int MostTries = 24;
+    private const int MostTriesSlowed = 4;
 
     // Stops in a step after which the rest of it is not tried: the scene cannot be followed, and says so.
     private const int MaxDampedSteps = 8;
@@ -70,6 +72,10 @@ internal sealed partial class StepController
     private double _firstGain;
     private bool _isOfAnyLength;
     private bool _isSmooth;
+
+    // What is tried beside halves of the parts that fail, and the tries after which it is more.
+    private Resort _resort;
+    private int _mostTries;
 
     // At the step's start, and after the last part that was taken.
     private EnergyAudit _energy;
@@ -336,8 +342,9 @@ internal sealed partial class StepController
     {
         int least = Math.Min(halvings, MaxKeptHalvings);
         var length = new PartLength(least, halvings);
-        int mostTries = _part.Tries + MostTries + (1 << halvings);
-        bool isOfEnergy = false, isSpent = false;
+        _resort = Resort.None;
+        _mostTries = _part.Tries + MostTries + (1 << halvings);
+        bool isOfEnergy = false;
         while (!length.IsDone && _dampedInStep < MaxDampedSteps)
         {
             while (halvings > least && length.Halvings < MaxHalvings && StepLimit.Of(_batch, _dt) > 1 << length.Halvings)
@@ -356,14 +363,21 @@ internal sealed partial class StepController
                 }
 
                 isOfEnergy |= hasArrived;
-                if (!isSpent && _part.Tries >= mostTries)
+                if (IsSpent())
                 {
-                    isSpent = true;
                     length.Lengthen(MaxKeptHalvings);
                     continue;
                 }
 
-                if ((!isSpent && !_isOfAnyLength && length.Halvings < MaxRattleHalvings) || !TakeOtherwise(start, h, length.Halvings))
+                if (_resort == Resort.Projection && length.Halvings == PartLength.MaxHalvings)
+                {
+                    _resort = Resort.Halves;
+                    ReturnToStart();
+                    length = new PartLength(least, halvings);
+                    continue;
+                }
+
+                if ((_resort != Resort.Projection && !_isOfAnyLength && length.Halvings < MaxRattleHalvings) || !TakeOtherwise(start, h, length.Halvings))
                 {
                     length.Halve();
                     continue;
@@ -380,6 +394,19 @@ internal sealed partial class StepController
         return Math.Min(MaxKept, length.Fewest == least + 1 && !isOfEnergy ? least : length.Fewest);
     }
 
+    // Whether the step has had its tries, and what is left of it is tried otherwise.
+    private bool IsSpent()
+    {
+        bool isSpent = _part.Tries >= _mostTries && _resort < Resort.Projection;
+        if (isSpent)
+        {
+            _resort = _resort == Resort.None && _batch.ActiveSet != null && _batch.ActiveSet.SlowDown() ? Resort.SlowerDrives : Resort.Projection;
+            _mostTries = _part.Tries + MostTriesSlowed;
+        }
+
+        return isSpent;
+    }
+
     private Snapshot SavePartStart(bool isFirst)
     {
         if (isFirst)
@@ -394,7 +421,7 @@ internal sealed partial class StepController
     // By the method that needs no chord, or, the shortest, standing still.
     private bool TakeOtherwise(Snapshot start, double h, int halvings)
     {
-        if (TryProjected(start, h, halvings))
+        if (TryProjected(h, halvings))
         {
             return true;
         }
@@ -509,9 +536,8 @@ internal sealed partial class StepController
         _end = new EnergyAudit(_batch, _dt, _tolerance);
     }
 
-    private bool TryProjected(Snapshot start, double h, int halvings)
+    private bool TryProjected(double h, int halvings)
     {
-        Return(start, h);
         if (!_part.TryProjected(h, _tolerance, _isAudited ? _energy : null) || !IsPartKept(h, halvings))
         {
             return false;

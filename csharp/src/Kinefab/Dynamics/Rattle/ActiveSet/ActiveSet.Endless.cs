@@ -180,6 +180,24 @@ internal sealed partial class ActiveSet<V>
         }
     }
 
+    /// <summary>Within a step whose parts fail: the drives without limit of force ask for less from here on; whether there are such.</summary>
+    public bool SlowDown()
+    {
+        bool isAny = false;
+        for (int i = 0; i < _rows.Length; i++)
+        {
+            ref ScalarRow scalar = ref _rows[i];
+            if (scalar.IsEndlessDrive && !scalar.Drive.IsHeld && scalar.AsksForSpeed && scalar.Pace.Slowdowns < DrivePace.MostSlowdowns)
+            {
+                scalar.SlowDown(Math.Min(DrivePace.MostSlowdowns, scalar.Pace.Slowdowns + Slowdown));
+                scalar.Pace.IsSlowedWithin = true;
+                isAny = true;
+            }
+        }
+
+        return isAny;
+    }
+
     /// <summary>
     /// After a step: a drive without limit of force asks for less where the mechanism did not follow it, for nothing where it stood, and for more again
     /// where it was followed.
@@ -214,13 +232,14 @@ internal sealed partial class ActiveSet<V>
             bool rests = pace.Rests;
             pace.FollowedSlowdowns = isFollowed && !rests ? before : pace.FollowedSlowdowns;
             scalar.SlowDown(isFollowed && growth > MostHeavier ? Math.Min(DrivePace.MostSlowdowns, before + 1)
-                : isFollowed ? Math.Max(0, before - (growth > Heavier ? 0 : 1))
+                : isFollowed ? Math.Max(0, before - (growth > Heavier || pace.IsSlowedWithin ? 0 : 1))
                 : stands || rests ? DrivePace.Resting
                 : comes ? before
                 : Math.Min(DrivePace.MostSlowdowns, before + Slowdown));
 
             // Not silently: it is named as one that stalls.
-            scalar.Drive.IsStalled |= isFollowed && growth > MostHeavier;
+            scalar.Drive.IsStalled |= isFollowed && (growth > MostHeavier || pace.IsSlowedWithin);
+            pace.IsSlowedWithin = false;
             pace.HasRested = pace.Rests;
             isAny |= pace.Slowdowns > 0;
             pace.RestingFreedom = rests ? pace.RestingFreedom : double.NaN;
@@ -256,19 +275,7 @@ internal sealed partial class ActiveSet<V>
 
     // Whether a coupling holds an angle of a drive's joint that turns about other axes too: of coupled angles, whose axes are not at right angles, one may turn
     // much where the other turns little.
-    private bool IsCoupledAmongOthers(in ScalarRow drive)
-    {
-        bool isCoupled = false;
-        foreach (CoordinateCoupling? coupling in _batch.Couplings)
-        {
-            for (int i = 0; coupling != null && i < coupling.AnglesAmongOthers.Length; i++)
-            {
-                isCoupled |= coupling.Coordinates[coupling.AnglesAmongOthers[i]].Joint == _batch.Models[drive.Block];
-            }
-        }
-
-        return isCoupled;
-    }
+    private bool IsCoupledAmongOthers(in ScalarRow drive) => _batch.Models[drive.Block] is D6Joint { IsCoupledAmongOthers: true };
 
     // A drive that gave all it has and what stopped it hold each other by far more than they have to. As a guess that would stay, since rows that agree ask
     // for no other; and shorter steps, which it made needful, no longer are.

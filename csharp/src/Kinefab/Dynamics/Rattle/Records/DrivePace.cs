@@ -29,6 +29,9 @@ internal struct DrivePace
     /// <summary>How often, when the mechanism last followed it.</summary>
     public int FollowedSlowdowns;
 
+    /// <summary>Whether it was slowed down within the step, see <see cref="ActiveSet{V}.SlowDown"/>.</summary>
+    public bool IsSlowedWithin;
+
     /// <summary>Which way it was asked to go then: the sign of its speed.</summary>
     public int Side;
 

@@ -255,7 +255,7 @@ public static class DiagnosticCodes
     /// <summary>Both limits are {angle} degrees: Unity locks the hinge at 0 instead.</summary>
     public const string HingeLimitsEqual = "HINGE_LIMITS_EQUAL";
 
-    /// <summary>A limit of {angle} degrees is cut to 180.</summary>
+    /// <summary>A limit of {angle} degrees is cut to 180, where the hinge may turn past it: its angle wraps there.</summary>
     public const string HingeLimitsBeyond180 = "HINGE_LIMITS_BEYOND_180";
 
     /// <summary>The stop at {angle} degrees is so near a half turn that the hinge may turn past it: its angle wraps there.</summary>

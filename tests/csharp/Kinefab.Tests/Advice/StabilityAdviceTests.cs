@@ -6,10 +6,12 @@ using System.Linq;
 using System.Text;
 using System.Text.Json.Nodes;
 using System.Text.RegularExpressions;
+using System.Threading;
 using Kinefab.Advice;
 using Kinefab.Advice.Changes;
 using Kinefab.Diagnostics;
 using Kinefab.Document;
+using Kinefab.Kinematics;
 using Kinefab.Validation;
 using NUnit.Framework;
 
@@ -53,6 +55,19 @@ public sealed class StabilityAdviceTests
             Assert.That(finding.Best.Score, Is.LessThan(1));
             Assert.That(finding.Best.Work, Is.EqualTo(1));
         }
+    }
+
+    // Each row is a count of all joints: seconds of a platform on six rods.
+    [TestCase("lever", "lever")]
+    [TestCase("mechanisms", "M17")]
+    public void ClosingJoints_WhoseRowsAreCounted_CanBeCancelled(string folder, string name)
+    {
+        ValidScene scene = ValidScene.Load(Path.Combine(Path.GetDirectoryName(AdviceScene.Lever)!, "..", folder, name + ".kinefab"));
+        var mechanism = Kinefab.Kinematics.Mechanism.Create(scene);
+        MobilityReport counted = MobilityAnalysis.Of(mechanism);
+        var cancelled = new CancellationToken(true);
+
+        Assert.That(() => name == "M17" ? ClosureRows.Minimal(scene, 12, counted, out _, cancelled) : ClosureRows.Whole(scene, mechanism, counted, out _, cancelled), Throws.InstanceOf<OperationCanceledException>());
     }
 
     [Test]

@@ -1,6 +1,7 @@
 using System;
 using System.Collections.Generic;
 using System.Linq;
+using System.Threading;
 using Kinefab.Document;
 using Kinefab.Json;
 using Kinefab.Kinematics;
@@ -32,13 +33,14 @@ internal static class ClosureRows
     /// <param name="mechanism">Its mechanism.</param>
     /// <param name="counted">Its freedoms.</param>
     /// <param name="untried">Rows that were not looked at, since there are too many.</param>
-    public static Change? Whole(ValidScene scene, Mechanism mechanism, MobilityReport counted, out int untried)
+    /// <param name="cancellation">Ends the counts early, with an OperationCanceledException.</param>
+    public static Change? Whole(ValidScene scene, Mechanism mechanism, MobilityReport counted, out int untried, CancellationToken cancellation)
     {
         List<int> free = FreeRows(mechanism);
         untried = (long)mechanism.Coordinates.Count * free.Count > MostDrives ? free.Count : 0;
         if (free.Count == 0 || untried > 0)
             return null;
-        bool[] moves = Moving(mechanism, free);
+        bool[] moves = Moving(mechanism, free, cancellation);
         var parts = new List<ChangePart>();
         foreach (IGrouping<(int GameObject, int Component), MechanismCoordinate> joint in free.Where((_, i) => !moves[i])
             .Select(c => mechanism.Coordinates[c]).GroupBy(c => (c.GameObject, c.Component)))
@@ -50,7 +52,7 @@ internal static class ClosureRows
                 joint.Select(c => new SceneEdit($"{EditText.Component(c.GameObject, c.Component)}/{MotionField.Of(c.Coordinate).Name}", "\"Locked\"")).ToArray()));
         }
 
-        return parts.Count > 0 && MovesAlike(scene, counted, parts) is not null ? new Change("closing joints whole", parts) : null;
+        return parts.Count > 0 && MovesAlike(scene, counted, parts, cancellation) is not null ? new Change("closing joints whole", parts) : null;
     }
 
     /// <summary>Frees redundant rows of the joints that have them.</summary>
@@ -58,7 +60,8 @@ internal static class ClosureRows
     /// <param name="joints">How many joints it has.</param>
     /// <param name="counted">Its freedoms.</param>
     /// <param name="untried">Rows that were not looked at, since there are too many.</param>
-    public static Change? Minimal(ValidScene scene, int joints, MobilityReport counted, out int untried)
+    /// <param name="cancellation">Ends the counts early, with an OperationCanceledException.</param>
+    public static Change? Minimal(ValidScene scene, int joints, MobilityReport counted, out int untried, CancellationToken cancellation)
     {
         int rows = counted.Joints.Sum(j => j.Rows);
         untried = (long)joints * rows > MostCounts ? rows : 0;
@@ -67,14 +70,14 @@ internal static class ClosureRows
         var parts = new List<ChangePart>();
         foreach (RedundantRows joint in counted.Joints)
         {
-            if (Freed(scene, counted, joint, parts) is ChangePart part)
+            if (Freed(scene, counted, joint, parts, cancellation) is ChangePart part)
                 parts.Add(part);
         }
 
         return parts.Count == 0 ? null : new Change("closing joints minimal", parts);
     }
 
-    private static ChangePart? Freed(ValidScene scene, MobilityReport counted, RedundantRows joint, List<ChangePart> before)
+    private static ChangePart? Freed(ValidScene scene, MobilityReport counted, RedundantRows joint, List<ChangePart> before, CancellationToken cancellation)
     {
         if (Locked(scene, joint) is not (MotionField[] locked, JsonTree component))
             return null;
@@ -84,7 +87,7 @@ internal static class ClosureRows
             if (freed.Count == joint.Redundant)
                 break;
             freed.Add(row);
-            if (MovesAlike(scene, counted, before.Append(Part(freed))) is null)
+            if (MovesAlike(scene, counted, before.Append(Part(freed)), cancellation) is null)
                 freed.RemoveAt(freed.Count - 1);
         }
 
@@ -132,11 +135,11 @@ internal static class ClosureRows
         return (all, component);
     }
 
-    private static ValidScene? MovesAlike(ValidScene scene, MobilityReport counted, IEnumerable<ChangePart> parts)
+    private static ValidScene? MovesAlike(ValidScene scene, MobilityReport counted, IEnumerable<ChangePart> parts, CancellationToken cancellation)
     {
         if (EditedScene.Apply(scene, parts.SelectMany(p => p.Edits)) is not ValidScene changed)
             return null;
-        MobilityReport then = MobilityAnalysis.Of(Mechanism.Create(changed));
+        MobilityReport then = MobilityAnalysis.Of(Mechanism.Create(changed), null, cancellation);
         return then.Mobility == counted.Mobility && then.FirstOrder == counted.FirstOrder ? changed : null;
     }
 
@@ -155,7 +158,7 @@ internal static class ClosureRows
     }
 
     // Every other coordinate is driven a little to both sides; rows that then never move may be locked.
-    private static bool[] Moving(Mechanism mechanism, List<int> rows)
+    private static bool[] Moving(Mechanism mechanism, List<int> rows, CancellationToken cancellation)
     {
         var moves = new bool[rows.Count];
         var solver = new PositionSolver(mechanism);
@@ -169,7 +172,7 @@ internal static class ClosureRows
             foreach (double target in new[] { way, -way })
             {
                 state.CopyFrom(start);
-                solver.Drive(state, driver, target);
+                solver.Drive(state, driver, target, cancellation);
                 for (int i = 0; i < moves.Length; i++)
                 {
                     double still = mechanism.Coordinates[rows[i]].IsAngle ? StillAngle : StillLength * mechanism.Length;

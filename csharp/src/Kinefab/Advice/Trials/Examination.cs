@@ -52,7 +52,7 @@ internal sealed class Examination
         Workbench = new Workbench(scene, Plan, World.Joints.Count, options, cancellation);
         Mechanism? mechanism = World.Joints.Count <= MostJointsCounted ? Mechanism.Create(scene) : null;
         Mobility = mechanism is null ? null : MobilityAnalysis.Of(mechanism, null, cancellation);
-        Remedies = new Remedies(scene, World, Islands, Unity, mechanism, Mobility);
+        Remedies = new Remedies(scene, World, Islands, Unity, mechanism, Mobility, cancellation);
     }
 
     public ValidScene Scene { get; }

@@ -1,5 +1,6 @@
 using System.Collections.Generic;
 using System.Linq;
+using System.Threading;
 using Kinefab.Advice.Changes;
 using Kinefab.Advice.Runs;
 using Kinefab.Dynamics;
@@ -21,12 +22,13 @@ internal sealed class Remedies
     /// <param name="run">The scene as Unity moves it.</param>
     /// <param name="mechanism">Null in a scene of too many joints to count rows in, as is its mobility.</param>
     /// <param name="mobility">The mechanism's.</param>
-    public Remedies(ValidScene scene, World world, IReadOnlyList<RunIsland> islands, SceneRun run, Mechanism? mechanism, MobilityReport? mobility)
+    /// <param name="cancellation">Ends the counts that changes need early, with an OperationCanceledException.</param>
+    public Remedies(ValidScene scene, World world, IReadOnlyList<RunIsland> islands, SceneRun run, Mechanism? mechanism, MobilityReport? mobility, CancellationToken cancellation)
     {
         if (mechanism is not null && mobility is MobilityReport counted)
         {
-            ClosuresWhole = ClosureRows.Whole(scene, mechanism, counted, out int notLocked);
-            ClosuresMinimal = ClosureRows.Minimal(scene, world.Joints.Count, counted, out int notFreed);
+            ClosuresWhole = ClosureRows.Whole(scene, mechanism, counted, out int notLocked, cancellation);
+            ClosuresMinimal = ClosureRows.Minimal(scene, world.Joints.Count, counted, out int notFreed, cancellation);
             RowsUntried = notLocked + notFreed;
         }
 

@@ -31,9 +31,6 @@ internal sealed class Substep
     private const double MostPassed = ActiveSet<ScalarLane>.MostPassed;
     private const double MostShort = 5;
 
-    // Tolerances by which an angle of an exact loop may stay open.
-    private const double MostLeftOpen = 100;
-
     // The impulses of a piece shorter than this share of the part are no guess for the rest of it.
     private const double LeastTelling = 0.25;
 
@@ -171,7 +168,7 @@ internal sealed class Substep
         _batch.ClearHistory();
     }
 
-    private bool IsLeftOpen(double tolerance) => IsExact && _batch.Work.MaxError[0] > MostLeftOpen * tolerance;
+    private bool IsLeftOpen(double tolerance) => IsExact && _batch.Work.MaxError[0] > ChordIteration<ScalarLane>.MostLeftOpen * tolerance;
 
     // A loop that was rounded, held to the letter, is braked or stirred up.
     private bool IsExact => _batch.Shape.Loops == LoopConsistency.Exact;

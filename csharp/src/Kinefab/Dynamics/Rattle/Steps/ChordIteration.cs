@@ -10,6 +10,15 @@ namespace Kinefab.Dynamics.Rattle;
 internal static class ChordIteration<V>
     where V : struct, ILane<V>
 {
+    /// <summary>Tolerances by which an angle of an exact loop may stay open.</summary>
+    public const double MostLeftOpen = 100;
+
+    /// <summary>
+    /// Tolerances that anchors may be apart where nothing moves any more, along each axis: with the speed of a short step little changes in an iteration, closed
+    /// or not.
+    /// </summary>
+    public const double MostGaps = 4;
+
     // A mode that contracts by less than one part in four is not sped up further: it is the part of an inconsistent loop that
     // cannot close, and chasing it would load the loop without end.
     private const double MostMixing = 4;
@@ -17,10 +26,7 @@ internal static class ChordIteration<V>
     // An error that does not fall below this share of itself in an iteration gets no better.
     private const double StillShare = 0.9;
 
-    // Tolerances that anchors may be apart then, along each axis: with the speed of a short step little changes in an iteration, closed or not.
-    private const double MostGaps = 4;
-
-    // Largest error of an angle that may be left then, radians.
+    // Largest error of an angle that may be left where it gets no better, radians.
     private const double MostAngle = 1e-3;
 
     // Growth of the error against the first drift's at which the iteration is given up.

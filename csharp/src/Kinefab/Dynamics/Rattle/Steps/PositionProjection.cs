@@ -100,7 +100,9 @@ internal sealed class PositionProjection
     {
         SaveStart();
         _keepsAllowed = true;
-        bool isClosed = Iterate(tolerance);
+
+        // As a drift of RATTLE's: at a pose where a loop is singular a gap of a tolerance is a way of its root, and closing it would lift what hangs there.
+        bool isClosed = Iterate(tolerance, ChordIteration<ScalarLane>.MostGaps, ChordIteration<ScalarLane>.MostLeftOpen);
         _keepsAllowed = false;
         for (int body = 0; body < _batch.Shape.MovingBodies; body++)
         {
@@ -164,7 +166,8 @@ internal sealed class PositionProjection
         RattleStep<ScalarLane>.Rebuild(_batch);
     }
 
-    private bool Iterate(double tolerance)
+    // gaps, angles: by how many tolerances anchors may be apart and angles may stay open.
+    private bool Iterate(double tolerance, double gaps = 1, double angles = 1)
     {
         double least = double.PositiveInfinity;
         double last = double.PositiveInfinity;
@@ -179,7 +182,7 @@ internal sealed class PositionProjection
                 Worst = Array.FindIndex(_batch.Work.Error, c => Math.Abs(c) == error);
             }
 
-            if (error < tolerance)
+            if (error < angles * tolerance && LargestGap() < gaps * tolerance)
             {
                 return true;
             }
@@ -214,6 +217,18 @@ internal sealed class PositionProjection
         LeaveCompliant();
 
         return DenseVector.Largest(_batch.Work.Error);
+    }
+
+    // After Evaluate: the largest C of a row that is not angular alone, m.
+    private double LargestGap()
+    {
+        double gap = 0;
+        for (int row = 0; row < _batch.Work.Error.Length; row++)
+        {
+            gap = _batch.Shape.IsAngular[row] ? gap : Math.Max(gap, Math.Abs(_batch.Work.Error[row]));
+        }
+
+        return gap;
     }
 
     // C of locked turns is the turn from frame 1 to frame 0 along axes of frame 0, or the world's where all are locked; of a

@@ -45,7 +45,7 @@ internal sealed class SingularPoseTests
         }
     }
 
-    // There a gap of a tolerance was closed by a lift of its root, which is no gain that shorter parts would lessen.
+    // Closing the last tolerance C of such a pose takes a way of the order of its root: a gain of potential energy that shorter parts do not lessen.
     [TestCase(1 / 30.0)]
     [TestCase(0.0333)]
     public void Step_OfAThirtiethFromAFlatPose_DoesNotStop(double dt)

@@ -101,7 +101,7 @@ internal sealed class PositionProjection
         SaveStart();
         _keepsAllowed = true;
 
-        // As a drift of RATTLE's: at a pose where a loop is singular a gap of a tolerance is a way of its root, and closing it would lift what hangs there.
+        // As far as a drift of RATTLE's: where a loop is singular, closing a gap C takes a way of the order of its root, which lifts what hangs there.
         bool isClosed = Iterate(tolerance, ChordIteration<ScalarLane>.MostGaps, ChordIteration<ScalarLane>.MostLeftOpen);
         _keepsAllowed = false;
         for (int body = 0; body < _batch.Shape.MovingBodies; body++)

@@ -36,7 +36,7 @@ internal readonly struct EnergyAudit
     {
         double distance = Tolerances * tolerance;
         double speed = distance / dt;
-        _floor = (batch.ActiveSet?.LargestStoredEnergy(distance, dt) ?? 0) + CompliantAngles<ScalarLane>.LargestEnergy(batch, distance);
+        _floor = (batch.ActiveSet?.LargestStoredEnergy(distance, dt) ?? 0) + CompliantAngles<ScalarLane>.LargestEnergy(batch, distance) + LargestReactions(batch, dt) * distance;
         _work = batch.Work.CompliantWork[0];
         _terms = 0;
         _forced = 0;
@@ -87,6 +87,24 @@ internal readonly struct EnergyAudit
     /// <param name="dt">Step, s.</param>
     public static double MovingOf(LaneBatch<ScalarLane> batch, double dt) =>
         Math.Max(KineticOf(batch), NumberOf(LaneEnergy<ScalarLane>.FirstWork(batch, dt), batch));
+
+    // Their work over a gap is energy that comes and goes. It shows where a loop is singular: the reactions there are any number of times as large as loads,
+    // since what is within the tolerance leaves room for a way of the order of its root. Those of the step so far, or at its start those of the last one, whose
+    // second half is what the impulses were loaded with, N and N m.
+    private static double LargestReactions(LaneBatch<ScalarLane> batch, double dt)
+    {
+        double sum = 0;
+        for (int n = 0; n < batch.Shape.Blocks.Length; n++)
+        {
+            int first = batch.Shape.Pattern.Rows[n];
+            for (int row = first; row < first + batch.Shape.Blocks[n].BilateralCount; row++)
+            {
+                sum += Math.Max(Math.Abs(batch.Work.TotalImpulses[row]), 2 * Math.Abs(batch.VelocityImpulses[row]));
+            }
+        }
+
+        return sum / dt;
+    }
 
     // Of L W L without their signs: where a body does not turn about an axis, momentum about it leaves them nothing but rounding.
     private static double TurningTerms(double[] a, int o)

@@ -26,20 +26,6 @@ internal sealed partial class StepController
     // Stops in a step after which the rest of it is not tried: the scene cannot be followed, and says so.
     private const int MaxDampedSteps = 8;
 
-    // Largest change of the energy in a step against its kinetic part, where nothing but known forces does work.
-    private const double MostEnergyChange = 0.002;
-
-    // Largest growth of the energy in a step, springs included, where scalar rows may take any amount.
-    private const double MostEnergyGain = 5e-4;
-
-    // Of what energy may change by in a step, what a part may, and, before it is tried in shorter ones from its start, what all may together.
-    private const double PartShare = 0.25;
-    private const double MostShares = 2;
-
-    // Halvings after which a gain or loss that is still more than a share of what it was at first is none of the step's.
-    private const int TellingHalvings = 3;
-    private const double KeptGain = 0.5;
-
     // What a part that stands still leaves of the speeds.
     private const double KeptSpeed = 0.9;
 
@@ -49,6 +35,7 @@ internal sealed partial class StepController
     private readonly PositionProjection _closure;
     private readonly Snapshot _start;
     private readonly Snapshot _partStart;
+    private readonly StepEnergy _energy;
     private int _dampedInStep;
     private bool _isMoved;
     private bool _hasSettled;
@@ -59,29 +46,11 @@ internal sealed partial class StepController
     private int _forbidden = -1;
     private double _forbiddenSpeed;
     private StepTroubles _troubles;
-    private bool _isAudited;
-    private bool _isSingular;
-    private bool _wasSingular;
-
-    // Of the step up to the next part: energy that came of nothing, J, and what that is of the allowance.
-    private double _gain;
-    private double _excess;
-
-    // Of the next part: what the longest that was tried gained, J, whether shorter ones gain as much, and whether the last one speaks for a longer one.
-    private int _firstGainHalvings;
-    private double _firstGain;
-    private bool _isOfAnyLength;
-    private bool _isSmooth;
 
     // What is tried beside halves of the parts that fail, and the tries after which it is more.
     private Resort _resort;
     private int _mostTries;
 
-    // At the step's start, and after the last part that was taken.
-    private EnergyAudit _energy;
-    private EnergyAudit _end;
-
-    private EnergyLedger _ledger;
     private double _dt;
     private double _elapsed;
     private double _tolerance;
@@ -94,6 +63,7 @@ internal sealed partial class StepController
         _closure = new PositionProjection(batch, _conjugateGradient);
         _start = new Snapshot(batch);
         _partStart = new Snapshot(batch);
+        _energy = new StepEnergy(batch, MaxKept);
     }
 
     /// <summary>Parts in which the island stood still: no method could take them, or too many before them.</summary>
@@ -117,19 +87,18 @@ internal sealed partial class StepController
             return;
         }
 
-        Begin(dt, tolerance, cut.IsSingular, hasFailed);
+        Begin(dt, tolerance, cut, hasFailed);
         CloseStartPose(isMoved);
         if (hasFailed || HasClosed || HasForbiddenSpeed)
         {
             ProjectStartSpeeds();
         }
 
-        _ledger = cut.Energy;
         int stops = DampedSteps;
         int halvings = FirstHalvings(hasFailed && !_part.IsEager ? Math.Max(cut.Halvings, 1) : cut.Halvings, out double demand);
         SaveStart();
         FindDrivesThatMove();
-        halvings = TakeParts(halvings, ref cut);
+        halvings = TakePartsUntilFineEnough(halvings);
         End(ref cut, halvings, demand);
         if (_dampedInStep == 0 || _hasMoved)
         {
@@ -141,7 +110,7 @@ internal sealed partial class StepController
         still.Remember(new StepVerdict { Stops = DampedSteps - stops, Worst = _worst, Error = _worstError, Troubles = _troubles });
     }
 
-    private void Begin(double dt, double tolerance, bool isSingular, bool hasFailed)
+    private void Begin(double dt, double tolerance, in SubstepHistory history, bool hasFailed)
     {
         Array.Clear(_batch.Work.TotalImpulses, 0, _batch.Work.TotalImpulses.Length);
         _batch.ActiveSet?.ClearWork();
@@ -158,13 +127,7 @@ internal sealed partial class StepController
         _hasMoved = false;
         _hasSettled = false;
         _hasLookedForHeld = false;
-        _isSingular = isSingular;
-        _wasSingular = isSingular;
-        _firstGain = 0;
-        _gain = 0;
-        _excess = 0;
-        _isOfAnyLength = false;
-        _isAudited = LaneEnergy<ScalarLane>.IsKnown(_batch, 0);
+        _energy.Begin(dt, tolerance, history.Energy, history.IsSingular);
         _batch.ActiveSet?.BeginPace(dt);
     }
 
@@ -176,11 +139,15 @@ internal sealed partial class StepController
         _forbidden = _isMoved && !_batch.Shape.IsInconsistent ? InitialVelocityProjection.Find(_batch, out _forbiddenSpeed) : -1;
     }
 
-    // Takes off the speeds that the joints forbid. Closing what stood open before the step does work on springs.
+    // Takes off the speeds that the joints forbid.
     private void ProjectStartSpeeds()
     {
         _hasSettled = true;
-        _isAudited &= !(_isMoved && _closure.IsOpen());
+        if (_isMoved && _closure.IsOpen())
+        {
+            _energy.Ignore();
+        }
+
         RattleStep<ScalarLane>.Rebuild(_batch);
         InitialVelocityProjection.Apply(_batch, _conjugateGradient);
     }
@@ -208,10 +175,7 @@ internal sealed partial class StepController
     private void SaveStart()
     {
         _start.Save(_batch);
-        if (_isAudited)
-        {
-            _energy = new EnergyAudit(_batch, _dt, _tolerance);
-        }
+        _energy.MarkStart();
     }
 
     // Drives that were held may be so no more, and those that rest may be free.
@@ -237,24 +201,22 @@ internal sealed partial class StepController
     }
 
     // Once more from its start in shorter parts where the account does not take what they left too much. The halvings of the next step's.
-    private int TakeParts(int halvings, ref SubstepHistory cut)
+    private int TakePartsUntilFineEnough(int halvings)
     {
         int next = TakeParts(halvings);
-        while (halvings < MaxKept && _isAudited && _dampedInStep == 0 && (_excess > MostShares || !CanTakeGain()))
+        while (halvings < MaxKept && _dampedInStep == 0 && _energy.IsTooCoarse)
         {
             ReturnToStart();
             halvings++;
             next = TakeParts(halvings);
         }
 
-        cut.IsSingular |= _isSingular;
         return next;
     }
 
     private void ReturnToStart()
     {
-        _gain = 0;
-        _excess = 0;
+        _energy.BeginAgain();
         Return(_start, _dt);
         _hasMoved = false;
         _elapsed = 0;
@@ -265,8 +227,8 @@ internal sealed partial class StepController
     // What the island's next step takes from this one.
     private void End(ref SubstepHistory cut, int halvings, double demand)
     {
-        cut.IsSingular = _isSingular && _isAudited && _end.Excess(_energy, false, MostEnergyChange) > 1;
-        Enter(ref cut.Energy);
+        cut.IsSingular = _energy.StaysSingular;
+        _energy.Enter(ref cut.Energy);
         bool comesToRest = false;
         cut.IsSlowedDown = _batch.ActiveSet != null && _batch.ActiveSet.EndPace(_dt, _tolerance / _dt, out comesToRest);
         if (!comesToRest)
@@ -292,49 +254,6 @@ internal sealed partial class StepController
     }
 
     private int MaxKept => _batch.ActiveSet == null ? MaxHalvings : MaxKeptHalvings;
-
-    private void Enter(ref EnergyLedger ledger)
-    {
-        if (!_isAudited)
-        {
-            return;
-        }
-
-        if (_end.IsClosed)
-        {
-            double takeable = LaneEnergy<ScalarLane>.Takeable(_batch, 0, _end.Kinetic, out CommonMotion common);
-            LaneEnergy<ScalarLane>.Take(_batch, 0, ledger.Enter(_end.GainSince(_energy), _end.Moving, takeable, MayLose), takeable, common);
-        }
-    }
-
-    // What slows a body down to its largest angular speed leaves speeds that the joints forbid, and these go.
-    private bool MayLose => _isSingular || _batch.Work.Slowed[0] > 0 || LaneEnergy<ScalarLane>.IsLed(_batch, 0) || _energy.IsSprung || CompliantAngles<ScalarLane>.HaveActed(_batch, 0, _energy.Kinetic) || _batch.ActiveSet is { HasActed: true };
-
-    // In parts as short as steps keep, a violent motion on which no scalar row acts may lose energy: nothing below these is better. Were it allowed to lose
-    // at any, while a gain is mended, an energy that swings about its value would be let down step by step. What is left there of a gain the account takes
-    // from the speeds.
-    private double Excess(in EnergyAudit end, int halvings)
-    {
-        bool mayLose = MayLose || halvings >= MaxKept;
-        return end.Excess(_energy, mayLose, mayLose ? MostEnergyGain : MostEnergyChange);
-    }
-
-    // Whether what the account takes of the step at its end is enough.
-    private bool CanTakeGain() =>
-        !_end.IsClosed || _ledger.CanTake(_end.GainSince(_energy), _end.Moving, LaneEnergy<ScalarLane>.Takeable(_batch, 0, _end.Kinetic, out _));
-
-    // What a step that is too long gains or loses, shorter ones do not; what goes where branches of a loop's motion meet, goes whatever their length.
-    private void FindGainOfAnyLength(double gain, int halvings)
-    {
-        if (_firstGain == 0)
-        {
-            _firstGain = gain;
-            _firstGainHalvings = halvings;
-        }
-
-        _isOfAnyLength = halvings >= _firstGainHalvings + TellingHalvings && gain / _firstGain > KeptGain;
-        _isSingular |= _isOfAnyLength && gain < 0 && _batch.Shape.HasJointLoops;
-    }
 
     // The step in parts of so many halvings, and shorter ones where these fail; where more are asked for than steps keep, longer ones once bodies turn less.
     // The halvings of the next step's.
@@ -363,21 +282,12 @@ internal sealed partial class StepController
                 }
 
                 isOfEnergy |= hasArrived;
-                if (IsSpent())
+                if (TakesNextResort(ref length, new PartLength(least, halvings)))
                 {
-                    length.Lengthen(MaxKeptHalvings);
                     continue;
                 }
 
-                if (_resort == Resort.Projection && length.Halvings == PartLength.MaxHalvings)
-                {
-                    _resort = Resort.Halves;
-                    ReturnToStart();
-                    length = new PartLength(least, halvings);
-                    continue;
-                }
-
-                if ((_resort != Resort.Projection && !_isOfAnyLength && length.Halvings < MaxRattleHalvings) || !TakeOtherwise(start, h, length.Halvings))
+                if ((_resort != Resort.Projection && !_energy.IsOfAnyLength && length.Halvings < MaxRattleHalvings) || !TakeOtherwise(start, h, length.Halvings))
                 {
                     length.Halve();
                     continue;
@@ -385,26 +295,34 @@ internal sealed partial class StepController
             }
 
             _elapsed += h;
-            _firstGain = 0;
-            _isOfAnyLength = false;
-            length.Take(_isSmooth);
+            _energy.BeginPart();
+            length.Take(_energy.IsSmooth);
         }
 
         // What does not arrive in one place is none of the next step's.
         return Math.Min(MaxKept, length.Fewest == least + 1 && !isOfEnergy ? least : length.Fewest);
     }
 
-    // Whether the step has had its tries, and what is left of it is tried otherwise.
-    private bool IsSpent()
+    // Whether the step has had its tries, and what is left of it, or all of it, is tried otherwise.
+    private bool TakesNextResort(ref PartLength length, in PartLength whole)
     {
-        bool isSpent = _part.Tries >= _mostTries && _resort < Resort.Projection;
-        if (isSpent)
+        if (_resort == Resort.Projection && length.Halvings == PartLength.MaxHalvings)
         {
-            _resort = _resort == Resort.None && _batch.ActiveSet != null && _batch.ActiveSet.SlowDown() ? Resort.SlowerDrives : Resort.Projection;
-            _mostTries = _part.Tries + MostTriesSlowed;
+            _resort = Resort.Halves;
+            ReturnToStart();
+            length = whole;
+            return true;
         }
 
-        return isSpent;
+        if (_resort >= Resort.Projection || _part.Tries < _mostTries)
+        {
+            return false;
+        }
+
+        _resort = _resort == Resort.None && _batch.ActiveSet != null && _batch.ActiveSet.SlowDown() ? Resort.SlowerDrives : Resort.Projection;
+        _mostTries = _part.Tries + MostTriesSlowed;
+        length.Lengthen(MaxKeptHalvings);
+        return true;
     }
 
     private Snapshot SavePartStart(bool isFirst)
@@ -441,7 +359,7 @@ internal sealed partial class StepController
         _part.SetLength(h);
         _part.HoldsPassedLimits = halvings >= MaxRattleHalvings;
         hasArrived = _part.TryRattle(h, _tolerance) && !HasRunAway;
-        if (!hasArrived || !IsPartKept(h, halvings))
+        if (!hasArrived || !_energy.TryTake(h, halvings))
         {
             return false;
         }
@@ -450,38 +368,13 @@ internal sealed partial class StepController
         return true;
     }
 
-    // Local errors of a second order method are of the third: where parts keep to a share of what the step may have, whatever their length, so does their sum.
-    private bool IsPartKept(double h, int halvings)
-    {
-        if (!_isAudited)
-        {
-            _isSmooth = true;
-            return true;
-        }
-
-        var end = new EnergyAudit(_batch, _dt, _tolerance);
-        double excess = Excess(end, halvings), gain = end.GainSince(_energy);
-        if (!(excess <= _excess + Math.Max(PartShare, h / _dt)))
-        {
-            FindGainOfAnyLength(gain - _gain, halvings);
-            return false;
-        }
-
-        _isSmooth = gain - _gain <= end.Allowed(_energy, MayLose, PartShare * (MayLose ? MostEnergyGain : MostEnergyChange));
-        _excess = excess;
-        _gain = gain;
-        _end = end;
-        return true;
-    }
-
     // What a part that goes well has no need to ask: whether the loop is singular, which speeds the joints forbid at the step's start and which drives they
     // hold, and whether rows keep to their bounds in each iteration. Whether the part is worth another try after it.
     private bool IsChanged(Snapshot start, double h, bool hasArrived, ref PartLength length)
     {
-        if (_isSingular != _wasSingular)
+        if (_energy.HasBecomeSingular())
         {
-            _wasSingular = true;
-            length.Lengthen(_firstGainHalvings);
+            length.Lengthen(_energy.FirstGainHalvings);
             return true;
         }
 
@@ -533,12 +426,12 @@ internal sealed partial class StepController
         _dampedInStep++;
         DampedSteps++;
         Damp(KeptSpeed);
-        _end = new EnergyAudit(_batch, _dt, _tolerance);
+        _energy.TakeStop();
     }
 
     private bool TryProjected(double h, int halvings)
     {
-        if (!_part.TryProjected(h, _tolerance, _isAudited ? _energy : null) || !IsPartKept(h, halvings))
+        if (!_part.TryProjected(h, _tolerance, _energy.Start) || !_energy.TryTake(h, halvings))
         {
             return false;
         }

@@ -25,6 +25,29 @@ def test_missing_source_exits_1_and_writes_nothing(tmp_path):
     assert report["written"] is False and report["errors"] == 1
 
 
+@pytest.mark.parametrize("name", ["none.step", "none.kinefab", "none.usda", "none.mjcf"])
+@pytest.mark.parametrize("command", ["export", "analyse", "view"])
+def test_a_path_that_is_misspelt_is_told_before_anything_that_its_format_needs(tmp_path, name, command):
+    output = {"export": "x.kinefab", "view": "x.html"}.get(command)
+    for path, code in ((tmp_path / name, "SOURCE_NOT_FOUND"), (tmp_path / f"folder{name}", "SOURCE_IS_FOLDER")):
+        (tmp_path / f"folder{name}").mkdir(exist_ok=True)
+        done = run(command, path, *(("-o", tmp_path / output) if output else ()))
+        assert done.returncode == 1 and f"error {code}: " in done.stderr and "pip install" not in done.stderr
+
+
+def test_a_scene_that_cannot_be_read_is_told_by_whatever_reads_it(lid, tmp_path):
+    """As of any other source: its buffer is gone, or half of it."""
+    next(tmp_path.glob("*.bin")).unlink()
+    half = tmp_path / "half.kinefab"
+    half.write_bytes(lid.read_bytes()[:300])
+    for path, code in ((lid, "BUFFER_MISSING"), (half, "JSON_SYNTAX")):
+        for command in (("analyse", path), ("export", path, "-o", tmp_path / "x.glb"), ("mates", path)):
+            done = run(*command)
+            assert done.returncode == 1 and done.stderr.count(f"error {code}: ") == 1
+        told = json.loads(run("export", path, "-o", tmp_path / "x.glb", "--json").stdout)
+        assert (told["errors"], told["diagnostics"][0]["code"]) == (1, code)
+
+
 @pytest.mark.parametrize(
     "output, report",
     [("a.bundle.json", "r.json"), ("a.kinefab", "a.bundle.json"), ("a.kinefab", "../{folder}/a.kinefab")],

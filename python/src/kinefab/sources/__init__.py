@@ -130,10 +130,11 @@ def read(
         _tell_unknown(path, report)
         report.raise_for_errors()
         raise AssertionError("an unknown format is an error")
-    for name in found.requires:
-        if find_spec(name) is None:
-            needed = {"library": name, "install": install(found.extra)}
-            report.add("SOURCE_LIBRARY_MISSING", path.name, format=found.name, **needed)
+    missing = [name for name in found.requires if find_spec(name) is None]
+    if missing and not _tell_no_file(path, report):  # nobody installs a library for a path that is misspelt
+        needed = {"format": found.name, "install": install(found.extra)}
+        for name in missing:
+            report.add("SOURCE_LIBRARY_MISSING", path.name, library=name, **needed)
     if found.requires and not is_encodable(os.path.abspath(path)):
         library = found.requires[0]
         report.add("SOURCE_PATH_NOT_UTF8", path.name, path=path, library=library, format=found.name)
@@ -169,13 +170,20 @@ def _tell_unknown(path: Path, report: Report) -> None:
         content = f": its content is none of {', '.join(formats)}"
         advice = "Check that it is the file that was meant, or export it again."
         report.add("SOURCE_FORMAT_UNKNOWN", path.name, path=path, content=content, road=road, advice=advice)
-    elif not road and not os.path.lexists(path):
+    elif (road and not os.path.lexists(path)) or not _tell_no_file(path, report):
+        advice = f"Give one of: {', '.join(sorted(known_suffixes()))}."
+        report.add("SOURCE_FORMAT_UNKNOWN", path.name, path=path, content="", road=road, advice=advice)
+
+
+def _tell_no_file(path: Path, report: Report) -> bool:
+    """Whether nothing is there, or a folder, which is told then."""
+    if not os.path.lexists(path):
         report.add("SOURCE_NOT_FOUND", path.name, path=path)
     elif path.is_dir():
         report.add("SOURCE_IS_FOLDER", path.name, path=path)
     else:
-        advice = f"Give one of: {', '.join(sorted(known_suffixes()))}."
-        report.add("SOURCE_FORMAT_UNKNOWN", path.name, path=path, content="", road=road, advice=advice)
+        return False
+    return True
 
 
 @runtime_checkable

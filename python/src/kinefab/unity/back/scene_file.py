@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import errno
+import os
 from collections.abc import Generator, Mapping
 from contextlib import contextmanager
 from pathlib import Path
@@ -22,6 +23,8 @@ def read_scene(path: Path) -> tuple[Mapping[str, Any], list[bytes]]:
     that the scene was written with, too.
     """
     path = Path(path)
+    if os.path.isdir(path):
+        raise KinefabError([diagnostic("SOURCE_IS_FOLDER", path=path)])
     try:
         content = _content(path)
     except FileNotFoundError:

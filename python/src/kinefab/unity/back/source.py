@@ -13,7 +13,7 @@ from typing import Any
 
 import numpy as np
 
-from ...diagnostics import FeatureOutcome, Outcome, Report, Severity
+from ...diagnostics import FeatureOutcome, KinefabError, Outcome, Report, Severity
 from ...model import (
     PLAIN,
     AnimationClip,
@@ -105,10 +105,14 @@ def read(path: Path, report: Report, request: object) -> WrittenScene:
 
     Raises KinefabError where the file or its buffer cannot be read.
     """
-    document, buffers = read_scene(path)
-    with unsound_as_finding(path):
-        scene = unity_scene(document, buffers, report)
-        made = _Nodes(document, scene).scene()
+    try:
+        document, buffers = read_scene(path)
+        with unsound_as_finding(path):
+            scene = unity_scene(document, buffers, report)
+            made = _Nodes(document, scene).scene()
+    except KinefabError as error:  # of those who know no report; it is what is told of the file
+        report.diagnostics.extend(error.diagnostics)
+        raise
     made.path, made.extras_at = path.name, dict(extras_in(document))
     for entry in document.get("report", ()):
         report.outcomes.append(_outcome(entry))

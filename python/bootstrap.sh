@@ -83,7 +83,7 @@ from_debian() {
     site=$("$venv/bin/python" -c 'import sysconfig; print(sysconfig.get_path("purelib"))')
     "$venv/bin/python" -c 'import trimesh' 2>/dev/null || debian_trimesh "$site" || return 1
     printf '%s\n' "$PWD/python/src" >"$site/kinefab.pth"
-    printf '#!%s\nfrom kinefab.cli import main\nmain()\n' "$venv/bin/python" >"$venv/bin/kinefab"
+    printf '#!%s\nfrom kinefab.__main__ import main\nmain()\n' "$venv/bin/python" >"$venv/bin/kinefab"
     chmod +x "$venv/bin/kinefab"
 }
 

@@ -155,13 +155,14 @@ def test_a_report_goes_through_a_link_and_into_a_pipe(lid, tmp_path):
 
 
 @pytest.mark.posix  # has the signals
-@pytest.mark.parametrize("name", ["SIGTERM", "SIGHUP"])
+@pytest.mark.parametrize("name", ["SIGINT", "SIGTERM", "SIGHUP"])
 @pytest.mark.parametrize("target", ["lever.kinefab", "Lever.prefab", "lever.glb"])
 def test_a_job_that_is_stopped_leaves_nothing_half_written(tmp_path, target, name):
     """What is written stands under a hidden name yet when it is made lasting; the shell sees the signal in the exit status."""
     number = getattr(signal, name)
-    # Under nohup the signal is ignored, and children inherit that.
-    told = f"import signal; signal.signal({number:d}, signal.SIG_DFL)\n"
+    # Under nohup, or in the background, the signal is ignored, and children inherit that.
+    usual = "signal.default_int_handler" if name == "SIGINT" else "signal.SIG_DFL"
+    told = f"import signal; signal.signal({number:d}, {usual})\n"
     stopped = f"{told}import os; os.fsync = lambda file: os.kill(os.getpid(), {number:d})\nimport kinefab.cli as c; c.main()"
     command = [sys.executable, "-c", stopped, "export", LEVER, "-o", tmp_path / target]
     done = subprocess.run(command, capture_output=True, text=True, timeout=60)

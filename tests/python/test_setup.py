@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+import re
 import runpy
 import shutil
 import subprocess
@@ -40,6 +41,12 @@ def test_help_lists_every_target_that_says_what_it_is():
     told = {line.partition(":")[0] for line in makefile.splitlines() if ":" in line and " ## " in line}
     done = subprocess.run(["make", "--no-print-directory", "help"], cwd=ROOT, capture_output=True, text=True)
     assert {line.split()[0] for line in done.stdout.splitlines()} == told >= {"demo", "tester-kit"}
+
+
+def test_the_program_that_setup_makes_on_debian_starts_as_the_one_that_pip_makes():
+    """Else Ctrl+C in its first tenths of a second, while all is imported, ends in a traceback."""
+    module, function = re.search(r'^kinefab = "(.*):(.*)"$', (ROOT / "python/pyproject.toml").read_text("utf-8"), re.M).groups()
+    assert f"from {module} import {function}\\n{function}()" in (ROOT / "python/bootstrap.sh").read_text("utf-8")
 
 
 def test_setup_without_sha256sum_says_so(tmp_path):

@@ -77,10 +77,11 @@ def _end(number: int, _: object) -> NoReturn:
 
 
 def _end_in_order() -> None:
-    """Whoever stops a job in CI or closes a terminal gets what Ctrl+C gives: what is half written goes, and what works beside."""
-    for name in ("SIGTERM", "SIGHUP"):
+    """Whoever presses Ctrl+C, stops a job in CI or closes a terminal: what is half written goes, and what works beside."""
+    for name in ("SIGINT", "SIGTERM", "SIGHUP"):
         number = getattr(signal, name, None)  # Windows has no SIGHUP
-        if number is not None and signal.getsignal(number) is signal.SIG_DFL:  # nohup has it ignored
+        taken = (signal.SIG_DFL, signal.default_int_handler)  # Python's own for Ctrl+C ends in click's exit status 1
+        if number is not None and signal.getsignal(number) in taken:  # nohup has it ignored
             signal.signal(number, _end)
 
 

@@ -22,10 +22,19 @@ def test_an_option_that_the_format_does_not_have_is_told_and_left_out():
 def test_a_library_that_is_missing_is_named_with_what_installs_it(monkeypatch, tmp_path):
     made = Format("Toy", (".toy",), "bundle.reader", requires=("no_such_library",), extra="urdf")
     monkeypatch.setattr(registry, "FORMATS", (*FORMATS, made))
+    (tmp_path / "machine.toy").touch()
     with pytest.raises(KinefabError) as caught:
         read(tmp_path / "machine.toy", Report())
     (found,) = caught.value.diagnostics
     assert found.code == "SOURCE_LIBRARY_MISSING" and found.remedy == "Install it: pip install xacro pycollada."
+
+
+def test_of_an_option_whose_words_differ_the_word_is_told():
+    """--ground world is for every format, --ground PART for those whose mates are found: a misspelt word is told as what it is."""
+    report = Report()
+    assert read(LEVER, report, options={"ground": "wrold", "up": "Z", "floating_base": True}).nodes
+    told = [d.message.partition(" means")[0] for d in report.diagnostics if d.code == "SOURCE_OPTION_UNUSED"]
+    assert told == ["--floating-base", "--ground wrold", "--up Z"]
 
 
 def test_options_of_one_name_are_one():

@@ -141,8 +141,9 @@ def read(
     report.raise_for_errors()
     asked = dict(options or {})
     for name in sorted(asked.keys() - {option.name for option in found.options}):
-        report.add("SOURCE_OPTION_UNUSED", path.name, option=name.replace("_", "-"), format=found.name)
-        del asked[name]
+        value, option = asked.pop(name), name.replace("_", "-")
+        told = f"{option} {value}" if isinstance(value, str) else option
+        report.add("SOURCE_OPTION_UNUSED", path.name, option=told, format=found.name)
     for option in found.options:
         option.check(asked.get(option.name))
     reader = import_module(f".{found.module}", __name__)

@@ -1,3 +1,4 @@
+using System;
 using System.Collections.Generic;
 using Kinefab.Document;
 
@@ -9,11 +10,16 @@ namespace Kinefab.Mechanisms;
 /// </summary>
 internal static class CadReading
 {
-    /// <summary>The user's own name for a joint; null when the file does not tell it.</summary>
-    public static string? Name(Joint joint) => JointExtras.Name(joint);
+    /// <summary>The user's own name for a joint, or for that of a link; null when the file does not tell it.</summary>
+    public static string? Name(Component joint) => JointExtras.Name(joint);
 
-    /// <summary>Constraints or joints of the source that a joint stands for.</summary>
-    public static IReadOnlyList<string> Sources(Joint joint) => joint.Because;
+    /// <summary>Constraints or joints of the source that a joint, or that of a link, stands for.</summary>
+    public static IReadOnlyList<string> Sources(Component joint) => joint switch
+    {
+        Joint component => component.Because,
+        ArticulationBody link => link.Because,
+        _ => Array.Empty<string>(),
+    };
 
     /// <summary>
     /// How a coordinate reads in the source: Sign times it, plus Offset in degrees or metres. Format 1.0 tells the sense of

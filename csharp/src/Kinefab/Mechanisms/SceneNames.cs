@@ -97,8 +97,7 @@ internal sealed class SceneNames
 
     private void AddCadNames((int GameObject, int Component) place)
     {
-        if (_objects[place.GameObject].Components[place.Component] is not Joint joint)
-            return;
+        Component joint = _objects[place.GameObject].Components[place.Component];
         if (CadReading.Name(joint) is string name)
         {
             Add(_named, name, place);

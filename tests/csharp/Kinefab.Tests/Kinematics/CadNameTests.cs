@@ -7,6 +7,7 @@ using Kinefab.Document;
 using Kinefab.Dynamics;
 using Kinefab.Kinematics;
 using Kinefab.Numerics;
+using Kinefab.Tests.Dynamics.Articulations;
 using Kinefab.Validation;
 using NUnit.Framework;
 
@@ -47,6 +48,26 @@ public sealed class CadNameTests
     [Test]
     public void Coordinate_OfNoJoint_ListsTheCadNamesToo() => Assert.That(
         () => Mechanism.CoordinateNamed("Shift"), Throws.ArgumentException.With.Message.Contains("Lever/Crank:1.angle \"Shaft\"").And.Message.Contains("\"Slide\""));
+
+    // Unity's ArticulationBody has no field for the name: the export leaves it in the extras, where the Python side finds it too.
+    [TestCase("Axis1")]
+    [TestCase("Axis1.angularX")]
+    [TestCase("Insert:1")]
+    [TestCase("L1")]
+    public void Coordinate_OfALink_AnswersToItsJointsNames(string name)
+    {
+        ArticulationBody link = LinkScene.Link(ArticulationJointType.Revolute) with { Because = ["Insert:1"], ExtrasJson = """{"name": "Axis1"}""" };
+        ValidScene scene = LinkScene.Scene(LinkScene.Base, link, LinkScene.Link(ArticulationJointType.Prismatic));
+        Mechanism mechanism = Mechanism.Create(scene);
+        World world = World.Create(scene);
+        using (Assert.EnterMultipleScope())
+        {
+            Assert.That(mechanism.Coordinates[mechanism.CoordinateNamed(name)].Name, Is.EqualTo("L1.angularX"));
+            Assert.That(world.Joint(name.Split('.')[0]).NameInCad, Is.EqualTo("Axis1"));
+            Assert.That(() => world.DriveTo(name, 40), Throws.Nothing);
+            Assert.That(() => world.DriveTo("Axs1", 40), Throws.ArgumentException.With.Message.Contains("L1.angularX \"Axis1\""));
+        }
+    }
 
     // A body called hip hangs on a joint called thigh, and the other way round, as robots have it.
     [Test]

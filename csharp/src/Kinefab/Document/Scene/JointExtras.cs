@@ -7,8 +7,8 @@ namespace Kinefab.Document;
 /// <summary>What exporters of format 1.0 tell of a joint in its <c>extras</c>, for want of fields.</summary>
 internal static class JointExtras
 {
-    /// <summary>The user's own name for the joint in the source; null when it is not told.</summary>
-    internal static string? Name(Joint joint) => joint.Name is { Length: > 0 } name ? name : Text(joint, "name");
+    /// <summary>The user's own name in the source for a joint, or for what stands in a joint's place; null when it is not told.</summary>
+    internal static string? Name(Component joint) => joint is Joint { Name: { Length: > 0 } name } ? name : Text(joint, "name");
 
     /// <summary>Whether the source counts the connected body's motion against the own one.</summary>
     internal static bool CountsConnected(Joint joint) => Text(joint, "counts") == "connected";
@@ -49,7 +49,7 @@ internal static class JointExtras
         return named.ToString();
     }
 
-    private static string? Text(Joint joint, string field)
+    private static string? Text(Component joint, string field)
     {
         JsonTree? value = Tree(joint)?[field];
         bool isText = value is not null && value.ToString()[0] == '"';
@@ -57,7 +57,7 @@ internal static class JointExtras
     }
 
     // Without any: an object without fields.
-    private static JsonTree? Tree(Joint joint)
+    private static JsonTree? Tree(Component joint)
     {
         try
         {

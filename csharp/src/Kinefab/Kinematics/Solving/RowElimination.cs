@@ -20,6 +20,7 @@ internal sealed class RowElimination
     private readonly int[] _slots;
     private readonly List<int> _touched = new();
     private readonly int[] _seen;
+    private readonly Predicate<Entry> _isReflected;
     private int _round;
 
     /// <summary>No rows: each freedom is a motion of its own.</summary>
@@ -30,6 +31,7 @@ internal sealed class RowElimination
         _row = new double[freedoms];
         _slots = new int[freedoms];
         _seen = new int[freedoms];
+        _isReflected = entry => _slots[entry.Motion] > 0;
         for (int i = 0; i < freedoms; i++)
         {
             _byFreedom[i] = new List<Entry> { new(i, 1) };
@@ -211,7 +213,7 @@ internal sealed class RowElimination
             along += entry.Value * v[slot];
         }
 
-        list.RemoveAll(entry => _slots[entry.Motion] > 0);
+        list.RemoveAll(_isReflected);
         for (int k = 0; k < v.Length; k++)
         {
             entries[k] -= scale * along * v[k];

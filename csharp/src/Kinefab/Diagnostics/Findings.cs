@@ -12,11 +12,20 @@ internal sealed class Findings
     private readonly List<Finding> list = new();
     private readonly int limit;
 
-    internal Findings(int limit) => this.limit = limit;
+    // Of a full list, before this one stand those that an error may take the place of.
+    private int full;
+
+    /// <summary>An empty list.</summary>
+    /// <param name="limit">Most that it holds; one at least, so that what has an error tells one.</param>
+    internal Findings(int limit)
+    {
+        this.limit = Math.Max(1, limit);
+        full = this.limit;
+    }
 
     internal IReadOnlyList<Finding> List => list;
 
-    /// <summary>How many findings are not in the list because it was full.</summary>
+    /// <summary>How many findings are not in the list because it was full: errors only where it holds nothing else.</summary>
     internal int Omitted { get; private set; }
 
     internal int Errors { get; private set; }
@@ -24,6 +33,7 @@ internal sealed class Findings
     internal void Clear()
     {
         list.Clear();
+        full = limit;
         Omitted = 0;
         Errors = 0;
     }
@@ -43,20 +53,36 @@ internal sealed class Findings
         Severity severity = graded ?? entry.Severity;
         if (severity == Severity.Error)
             Errors++;
-        if (list.Count < limit)
-        {
-            list.Add(new Finding(
-                code,
-                severity,
-                DiagnosticTable.Fill(entry.Message, values),
-                DiagnosticTable.Fill(entry.Remedy, values),
-                pointer,
-                offset));
-        }
-        else
+        if (list.Count == limit && !(severity == Severity.Error && TryMakeRoom()))
         {
             Omitted++;
+            return;
         }
+
+        list.Add(new Finding(
+            code,
+            severity,
+            DiagnosticTable.Fill(entry.Message, values),
+            DiagnosticTable.Fill(entry.Remedy, values),
+            pointer,
+            offset));
+    }
+
+    // A thousand warnings before it must not hide the one error that says why a file is refused.
+    private bool TryMakeRoom()
+    {
+        while (full > 0)
+        {
+            full--;
+            if (list[full].Severity != Severity.Error)
+            {
+                list.RemoveAt(full);
+                Omitted++;
+                return true;
+            }
+        }
+
+        return false;
     }
 
     internal sealed class Finding

@@ -8,8 +8,6 @@ namespace Kinefab.Json;
 /// <summary>A JSON value that can be changed: numbers, words and strings as they stand in the text, fields in their order.</summary>
 internal sealed class JsonTree
 {
-    private const int MaxDepth = 256;
-
     // Of an object or array null; else the value's text.
     private readonly string? _text;
     private readonly bool _isObject;
@@ -25,7 +23,7 @@ internal sealed class JsonTree
     /// <exception cref="JsonSyntaxException">It is no JSON.</exception>
     public static JsonTree Parse(ReadOnlySpan<byte> text)
     {
-        var json = new Utf8Tokenizer(text, MaxDepth);
+        var json = new Utf8Tokenizer(text, Utf8Tokenizer.MostDepth);
         json.Read();
         JsonTree tree = Read(ref json, text);
         json.Read();
@@ -59,7 +57,7 @@ internal sealed class JsonTree
     public string AsString()
     {
         byte[] text = Encoding.UTF8.GetBytes(_text ?? "");
-        var json = new Utf8Tokenizer(text, MaxDepth);
+        var json = new Utf8Tokenizer(text, Utf8Tokenizer.MostDepth);
         json.Read();
         return json.TryGetString(out string value) ? value : _text!;
     }

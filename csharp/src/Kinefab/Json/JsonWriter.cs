@@ -10,8 +10,6 @@ namespace Kinefab.Json;
 /// </summary>
 internal sealed class JsonWriter
 {
-    private const int MaxDepth = 256;
-
     // A half of a surrogate pair has no UTF-8.
     private static readonly UTF8Encoding Strict = new(false, throwOnInvalidBytes: true);
 
@@ -126,7 +124,7 @@ internal sealed class JsonWriter
         try
         {
             byte[] text = Strict.GetBytes(json);
-            var reader = new Utf8Tokenizer(text, MaxDepth);
+            var reader = new Utf8Tokenizer(text, Utf8Tokenizer.MostDepth);
             if (!reader.Read() || reader.Token != JsonToken.StartObject)
                 throw new ArgumentException($"What should be an object in JSON is none: {json}");
             Copy(ref reader);

@@ -12,6 +12,9 @@ namespace Kinefab.Json;
 /// </summary>
 internal ref struct Utf8Tokenizer
 {
+    /// <summary>Containers inside each other of any text that is read: what goes through a value calls itself once for each.</summary>
+    public const int MostDepth = 256;
+
     private readonly ReadOnlySpan<byte> _text;
     private readonly int _maxDepth;
 

@@ -10,15 +10,13 @@ namespace Kinefab.Reading;
 /// <summary>Walks a text once to tell JSON pointers from byte offsets and the other way round.</summary>
 internal static class PointerFinder
 {
-    private const int MaxDepth = 1024;
-
     /// <summary>The pointer of the innermost value or field at each of the rising offsets; broken JSON gives the path up to there.</summary>
     internal static string[] PointersAt(ReadOnlySpan<byte> text, long[] offsets)
     {
         var pointers = new string[offsets.Length];
         var path = new List<(string? Name, int Index)>();
         int next = 0;
-        var reader = new Utf8Tokenizer(text, MaxDepth);
+        var reader = new Utf8Tokenizer(text, Utf8Tokenizer.MostDepth);
         try
         {
             while (next < offsets.Length && reader.Read())
@@ -55,7 +53,7 @@ internal static class PointerFinder
     {
         var root = new Node();
         Node[] nodes = pointers.Select(pointer => root.Add(pointer)).ToArray();
-        var reader = new Utf8Tokenizer(text, MaxDepth);
+        var reader = new Utf8Tokenizer(text, Utf8Tokenizer.MostDepth);
         if (reader.Read())
             Walk(ref reader, root);
         return nodes.Select(node => node.NearestOffset).ToArray();

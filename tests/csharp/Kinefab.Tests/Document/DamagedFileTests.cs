@@ -5,6 +5,7 @@ using System.Linq;
 using System.Text;
 using FsCheck;
 using FsCheck.Fluent;
+using Kinefab.Diagnostics;
 using Kinefab.Document;
 using Kinefab.Tests.Conformance;
 using Kinefab.Validation;
@@ -71,6 +72,60 @@ public class DamagedFileTests
     {
         string text = "{\"format\":\"kinefab.scene\",\"version\":\"1.0\",\"gameObjects\":[" + string.Join(",", Enumerable.Repeat("7", 1_000_000)) + "]}";
         Assert.That(SceneFile.Parse(Encoding.UTF8.GetBytes(text)).Report.Diagnostics, Has.Count.EqualTo(1001));
+    }
+
+    [Test]
+    public void Read_ErrorsBehindMoreWarningsThanAreKept_AreToldInTheirOrder()
+    {
+        SceneReading reading = SceneFile.Parse(Encoding.UTF8.GetBytes(Scene("""{"type": "Nope"}, {"type": "No"}""", unknown: 1200)));
+        using (Assert.EnterMultipleScope())
+        {
+            Assert.That(reading.Document, Is.Null);
+            Assert.That(reading.Report.Diagnostics.Where(found => found.Severity == Severity.Error).Select(found => found.Pointer), Is.EqualTo(["/gameObjects/0/components/0/type", "/gameObjects/0/components/1/type"]));
+            Assert.That(reading.Report.Diagnostics, Has.Count.EqualTo(1001));
+            Assert.That(reading.Report.Diagnostics[^1].Message, Does.StartWith("202 more"));
+        }
+    }
+
+    [Test]
+    public void Validate_AnErrorBehindMoreFindingsThanAreKept_IsTold()
+    {
+        string text = Scene("""{"type": "BoxCollider", "size": [-1, 1, 1]}""");
+        SceneDocument one = SceneFile.Parse(Encoding.UTF8.GetBytes(text)).Document!;
+        int warnings = SceneValidator.Validate(one).Report.Count(Severity.Warning);
+        SceneValidation validation = SceneValidator.Validate(one with { GameObjects = [one.GameObjects[0], one.GameObjects[0]] }, new SceneLimits { MaxFindings = 1 });
+        Assert.That((warnings, validation.Scene is null, validation.Report.HasErrors), Is.EqualTo((1, true, true)));
+    }
+
+    [Test]
+    public void Read_WithoutRoomForFindings_TellsOneErrorAllTheSame()
+    {
+        var none = new SceneReadOptions { Limits = new SceneLimits { MaxFindings = 0 } };
+        Assert.That(SceneFile.Parse("{}"u8, null, none).Report.HasErrors);
+    }
+
+    [TestCase(200)]
+    [TestCase(100_000)]
+    public void Read_DeeperThanTheDefault_IsRefusedOrValidatedAndWritten(int depth)
+    {
+        string extras = new StringBuilder().Insert(0, "{\"a\":", depth).Append('1').Append('}', depth).ToString();
+        string text = Scene("").Replace("\"gameObjects\"", $"\"extras\": {extras}, \"gameObjects\"", StringComparison.Ordinal)
+            .Replace("\"transform\": {}", "\"transform\": {\"localScale\": [0, 1, 1]}", StringComparison.Ordinal);
+        SceneReading reading = SceneFile.Parse(Encoding.UTF8.GetBytes(text), null, new SceneReadOptions { Limits = new SceneLimits { MaxDepth = int.MaxValue } });
+        if (depth > 256)
+        {
+            Assert.That(reading.Report.Diagnostics.Single().Code, Is.EqualTo(DiagnosticCodes.JsonTooDeep));
+            return;
+        }
+
+        Assert.That(SceneValidator.Validate(reading.Document!).Report.Diagnostics.Select(found => found.Line), Is.Not.Empty.And.All.EqualTo(1));
+        Assert.That(() => SceneFile.Save(reading.Document!, Stream.Null), Throws.Nothing);
+    }
+
+    private static string Scene(string components, int unknown = 0)
+    {
+        string fields = string.Concat(Enumerable.Range(0, unknown).Select(i => $"\"unknown{i}\": 0, "));
+        return $$"""{"format": "kinefab.scene", "version": "1.0", {{fields}}"gameObjects": [{"id": "A", "name": "A", "transform": {}, "components": [{{components}}]}]}""";
     }
 
     /// <summary>Bytes that mean something to JSON, and any others.</summary>

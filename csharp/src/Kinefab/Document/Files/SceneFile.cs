@@ -180,17 +180,18 @@ public static partial class SceneFile
     {
         if (!JsonText.Check(text, findings))
             return null;
+        int maxDepth = Math.Min(options.Limits.MaxDepth, Utf8Tokenizer.MostDepth);
         try
         {
             var progress = new ReadingProgress(options.Progress, ShareOfFile, ShareOfText, cancellation);
-            var cursor = new JsonCursor(text, findings, options.Limits.MaxItems, options.Limits.MaxDepth, options.Strict, progress);
+            var cursor = new JsonCursor(text, findings, options.Limits.MaxItems, maxDepth, options.Strict, progress);
             var document = new SceneDocument(ref cursor);
             cursor.End();
             return document;
         }
         catch (JsonSyntaxException fault)
         {
-            JsonText.ReportBroken(fault, options.Limits.MaxDepth, findings);
+            JsonText.ReportBroken(fault, maxDepth, findings);
             return null;
         }
         catch (ReadingEndedException)

@@ -21,12 +21,12 @@ public sealed class SceneLimits
     /// <summary>Largest scene file, bytes; looked at before anything is read.</summary>
     public long MaxFileBytes { get; init; } = DefaultMaxFileBytes;
 
-    /// <summary>Most containers inside each other.</summary>
+    /// <summary>Most containers inside each other; 256 at most, whatever is asked for, so that what was read can be written again.</summary>
     public int MaxDepth { get; init; } = DefaultMaxDepth;
 
     /// <summary>Most items of one array.</summary>
     public int MaxItems { get; init; } = DefaultMaxItems;
 
-    /// <summary>Most findings kept; the rest is counted.</summary>
+    /// <summary>Most findings kept, one at least, errors before others; the rest is counted.</summary>
     public int MaxFindings { get; init; } = DefaultMaxFindings;
 }

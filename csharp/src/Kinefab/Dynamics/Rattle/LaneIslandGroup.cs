@@ -221,7 +221,7 @@ internal sealed class LaneIslandGroup<V> : IslandGroup
         MovingFrame<ScalarLane>.Copy(free.Batch, lane, _spare, 0);
         MovingFrame<ScalarLane>.Enter(_spare);
         _spare.Reset();
-        LaneTransfer<V>.CopyGuess(free.Batch, lane, _spare, 0);
+        LaneCopy<V>.Guess(free.Batch, lane, _spare, 0);
         AxisRows<V>? axes = (_resting.Length > 0 ? _resting[index] : free).Batch.Axes;
         AloneMemory? memory = _memories.Length > 0 ? _memories[index * Lane<V>.Width + lane] : null;
         bool isMoved = free.IsMoved(lane);

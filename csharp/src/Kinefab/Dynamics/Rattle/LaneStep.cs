@@ -110,14 +110,14 @@ internal sealed class LaneStep<V>
     /// <summary>The same of some lanes, as another batch has found them.</summary>
     public void Load(LaneStep<V> from, bool[] lanes)
     {
-        LaneTransfer<V>.CopyStart(from.Batch, Batch);
+        LaneCopy<V>.Start(from.Batch, Batch);
         CoupledTurns<V>.Gather(Batch);
         for (int lane = 0; lane < Lane<V>.Width; lane++)
         {
             _isAlone[lane] = !lanes[lane];
             _isUnread[lane] = false;
             Batch.Work.Moved[lane] = 0;
-            LaneTransfer<V>.CopyGuess(from.Batch, lane, Batch, lane);
+            LaneCopy<V>.Guess(from.Batch, lane, Batch, lane);
             MovingFrame<V>.Copy(from.Batch, lane, Batch, lane);
         }
     }
@@ -299,14 +299,14 @@ internal sealed class LaneStep<V>
     public void TakeOver<S>(int lane, LaneBatch<S> from, int fromLane)
         where S : struct, ILane<S>
     {
-        LaneTransfer<V>.CopyLane(Batch, lane, from, fromLane);
+        LaneCopy<V>.OneLane(Batch, lane, from, fromLane);
         _isTakenOver[lane] = true;
     }
 
     /// <summary>The steps of all lanes were made elsewhere, in the same lanes.</summary>
     public void TakeOver(LaneBatch<V> from)
     {
-        LaneTransfer<V>.CopyLanes(Batch, from);
+        LaneCopy<V>.AllLanes(Batch, from);
         Array.Fill(_isTakenOver, true);
     }
 

@@ -6,66 +6,15 @@ using Kinefab.Numerics;
 
 namespace Kinefab.Dynamics.Rattle;
 
-/// <summary>Moving bodies that hang together by joints and couplings, with the fixed bodies they touch, and their matrix's pattern.</summary>
+/// <summary>Moving bodies that hang together by joints and couplings, with the fixed bodies they touch.</summary>
 internal sealed class Island
 {
-    /// <summary>A body couples the rows of two blocks: the block (Later, Earlier) takes J_l M^-1 J_e^T over it.</summary>
-    internal readonly struct Link
-    {
-        public Link(int later, int laterSide, int earlier, int earlierSide, int body, int block)
-        {
-            Later = later;
-            LaterSide = laterSide;
-            Earlier = earlier;
-            EarlierSide = earlierSide;
-            Body = body;
-            Block = block;
-        }
-
-        public readonly int Later;
-        public readonly int LaterSide;
-        public readonly int Earlier;
-        public readonly int EarlierSide;
-        public readonly int Body;
-        public readonly int Block;
-    }
-
-    /// <summary>A hub's part of the rows of a block: 6 numbers a row, at Block in the matrix, where the hub's rows come first or the block's.</summary>
-    internal readonly struct HubLink
-    {
-        public HubLink(int node, int side, int hub, bool isHubLater, int block)
-        {
-            Node = node;
-            Side = side;
-            Hub = hub;
-            IsHubLater = isHubLater;
-            Block = block;
-        }
-
-        public readonly int Node;
-        public readonly int Side;
-
-        /// <summary>Index in <see cref="Hubs"/>.</summary>
-        public readonly int Hub;
-
-        /// <summary>Whether the block's rows are the hub's and its columns the row block's; else the other way round.</summary>
-        public readonly bool IsHubLater;
-        public readonly int Block;
-    }
-
-    // n blocks that touch a body are n^2 / 2 pairs. With as many it pays to keep the body's own six unknowns in the matrix.
-    private const int MostEliminated = 16;
-    private const int HubRows = 6;
-
-    // The pattern is built when it is first asked for, since Unity's solver, and an island that is only looked at for loops, do without.
     private readonly double[] _inverseMasses;
     private readonly Vector3d[] _inverseInertias;
-    private readonly int[] _sizes;
-    private readonly List<(int Node, int Side)>[] _touching;
-    private readonly Island? _origin;
+    private readonly IslandMatrix _matrix;
+
+    // Steps ask for it for every row.
     private BlockPattern? _pattern;
-    private Link[]? _links;
-    private HubLink[]? _hubLinks;
     private bool[]? _isAngular;
 
     /// <param name="bodies">Index in the mechanism (or Joint.World) of each body, the moving ones first.</param>
@@ -86,7 +35,6 @@ internal sealed class Island
     // The origin is the island that this is a form of.
     private Island(int[] bodies, int movingBodies, RowBlock[] blocks, double[] inverseMasses, Vector3d[] inverseInertias, Island? origin)
     {
-        _origin = origin;
         Bodies = bodies;
         MovingBodies = movingBodies;
         Blocks = blocks;
@@ -96,28 +44,15 @@ internal sealed class Island
             IsStatic[b] = bodies[b] == JointModel.World;
         }
 
-        var sizes = new int[blocks.Length];
-        var touching = new List<(int Node, int Side)>[movingBodies];
-        for (int b = 0; b < movingBodies; b++)
+        foreach (RowBlock block in blocks)
         {
-            touching[b] = new List<(int Node, int Side)>();
+            RowCount += block.Rows;
+            HasAssembledRows |= block.IsAssembled;
+            ScalarCount += block.ScalarCount;
         }
 
-        for (int n = 0; n < blocks.Length; n++)
-        {
-            sizes[n] = blocks[n].Rows;
-            RowCount += sizes[n];
-            HasAssembledRows |= blocks[n].IsAssembled;
-            ScalarCount += blocks[n].ScalarCount;
-            for (int side = 0; side < blocks[n].Bodies.Length; side++)
-            {
-                int body = blocks[n].Bodies[side];
-                if (body < movingBodies)
-                {
-                    touching[body].Add((n, side));
-                }
-            }
-        }
+        _matrix = new IslandMatrix(blocks, movingBodies, origin?._matrix);
+        Hubs = _matrix.Hubs;
 
         HasJointLoops = Array.FindAll(blocks, block => block.Joint != null).Length >= LeastWithLoop;
         HasKinematic = Array.IndexOf(IsStatic, false, movingBodies) >= 0;
@@ -131,18 +66,6 @@ internal sealed class Island
 
         LockedInertiaBodies = FindLockedInertia(inverseInertias);
         MeanRateBodies = FindMeanRate(blocks, movingBodies);
-        _sizes = sizes;
-        _touching = touching;
-        var hubs = new List<int>();
-        for (int b = 0; b < movingBodies; b++)
-        {
-            if (touching[b].Count > MostEliminated)
-            {
-                hubs.Add(b);
-            }
-        }
-
-        Hubs = hubs.ToArray();
     }
 
     /// <summary>Index in the mechanism (or Joint.World) of each of the island's bodies, the moving ones first.</summary>
@@ -161,24 +84,20 @@ internal sealed class Island
     /// <summary>Rows of all blocks.</summary>
     public int RowCount { get; }
 
-    /// <summary>
-    /// Moving bodies that so many blocks touch that they stay in the matrix. Instead of J M^-1 J^T over the hubs there is
-    /// [., J W; W^T J^T, -1] with W W^T = M^-1, which has that as its Schur complement.
-    /// </summary>
+    /// <inheritdoc cref="IslandMatrix.Hubs"/>
     public int[] Hubs { get; }
 
-    public bool IsHub(int body) => Hubs.Length > 0 && Array.BinarySearch(Hubs, body) >= 0;
-
-    /// <summary>The blocks in their order, then the hubs in theirs.</summary>
-    public BlockPattern Pattern => Ordered(default);
+    /// <inheritdoc cref="IslandMatrix.Pattern"/>
+    public BlockPattern Pattern => _pattern ??= _matrix.Pattern;
 
     /// <summary>Whether the pattern has been found.</summary>
-    public bool IsOrdered => _pattern != null;
+    public bool IsOrdered => _matrix.IsOrdered;
 
-    /// <summary>The couplings over bodies that are no hubs.</summary>
-    public Link[] Links => _links ??= MakeLinks(_touching, Pattern);
+    /// <inheritdoc cref="IslandMatrix.BodyLinks"/>
+    public IslandMatrix.BodyLink[] BodyLinks => _matrix.BodyLinks;
 
-    public HubLink[] HubLinks => _hubLinks ??= MakeHubLinks(Pattern);
+    /// <inheritdoc cref="IslandMatrix.HubLinks"/>
+    public IslandMatrix.HubLink[] HubLinks => _matrix.HubLinks;
 
     /// <summary>Whether a body of theirs moves as it is told.</summary>
     public bool HasKinematic { get; }
@@ -237,50 +156,19 @@ internal sealed class Island
     /// <summary>Whether the other island is of the same build, so that both can share lanes.</summary>
     public bool HasShapeOf(Island other)
     {
-        if (Bodies.Length != other.Bodies.Length || MovingBodies != other.MovingBodies || Blocks.Length != other.Blocks.Length
-            || Loops != other.Loops)
+        bool isAlike = MovingBodies == other.MovingBodies && Blocks.Length == other.Blocks.Length && Loops == other.Loops
+            && IsStatic.AsSpan().SequenceEqual(other.IsStatic) && LockedInertiaBodies.AsSpan().SequenceEqual(other.LockedInertiaBodies);
+        for (int b = 0; b < MovingBodies && isAlike; b++)
         {
-            return false;
+            isAlike = RotationSplittings[b].Equals(other.RotationSplittings[b]);
         }
 
-        for (int b = 0; b < IsStatic.Length; b++)
+        for (int n = 0; n < Blocks.Length && isAlike; n++)
         {
-            if (IsStatic[b] != other.IsStatic[b])
-            {
-                return false;
-            }
+            isAlike = Blocks[n].HasShapeOf(other.Blocks[n]);
         }
 
-        if (LockedInertiaBodies.Length != other.LockedInertiaBodies.Length)
-        {
-            return false;
-        }
-
-        for (int b = 0; b < LockedInertiaBodies.Length; b++)
-        {
-            if (LockedInertiaBodies[b] != other.LockedInertiaBodies[b])
-            {
-                return false;
-            }
-        }
-
-        for (int b = 0; b < MovingBodies; b++)
-        {
-            if (!RotationSplittings[b].Equals(other.RotationSplittings[b]))
-            {
-                return false;
-            }
-        }
-
-        for (int n = 0; n < Blocks.Length; n++)
-        {
-            if (!Blocks[n].HasShapeOf(other.Blocks[n]))
-            {
-                return false;
-            }
-        }
-
-        return true;
+        return isAlike;
     }
 
     /// <summary>Whether the other one holds the same bodies, of the same masses, by the same joints with the same rows: what was kept of it still holds.</summary>
@@ -341,118 +229,12 @@ internal sealed class Island
         return angular;
     }
 
-    /// <summary>Makes the pattern, which takes long for wide grids, so that it can be ended early.</summary>
-    /// <exception cref="OperationCanceledException">It was cancelled.</exception>
-    public void Order(CancellationToken cancellation) => Ordered(cancellation);
+    /// <inheritdoc cref="IslandMatrix.Order"/>
+    public void Order(CancellationToken cancellation) => _matrix.Order(cancellation);
 
-    /// <summary>Takes the pattern of another island, where that has been found and is the same: it has as many rows in each block, between the same bodies.</summary>
-    public void TakePattern(Island other)
-    {
-        if (_pattern is null && other._pattern != null && HasPatternOf(other))
-        {
-            _pattern = other._pattern;
-        }
-    }
+    /// <inheritdoc cref="IslandMatrix.TakePattern"/>
+    public void TakePattern(Island other) => _matrix.TakePattern(other._matrix);
 
-    private BlockPattern Ordered(CancellationToken cancellation) =>
-        _pattern ??= _origin != null && HasPatternOf(_origin) ? _origin.Ordered(cancellation) : MakePattern(cancellation);
-
-    private bool HasPatternOf(Island other)
-    {
-        if (MovingBodies != other.MovingBodies || Blocks.Length != other.Blocks.Length)
-        {
-            return false;
-        }
-
-        for (int n = 0; n < Blocks.Length; n++)
-        {
-            if (Blocks[n].Rows != other.Blocks[n].Rows || !Blocks[n].Bodies.AsSpan().SequenceEqual(other.Blocks[n].Bodies))
-            {
-                return false;
-            }
-        }
-
-        return true;
-    }
-
-    private BlockPattern MakePattern(CancellationToken cancellation)
-    {
-        var sizes = new int[Blocks.Length + Hubs.Length];
-        _sizes.CopyTo(sizes, 0);
-        for (int hub = Blocks.Length; hub < sizes.Length; hub++)
-        {
-            sizes[hub] = HubRows;
-        }
-
-        // What touches hubs alone has nothing on its diagonal but a compliance.
-        var waits = new bool[sizes.Length];
-        for (int n = 0; n < Blocks.Length && Hubs.Length > 0; n++)
-        {
-            waits[n] = Array.TrueForAll(Blocks[n].Bodies, body => body >= MovingBodies || IsHub(body));
-        }
-
-        return new BlockPattern(sizes, Couplings(), Blocks.Length, waits, cancellation);
-    }
-
-    private IEnumerable<(int A, int B)> Couplings()
-    {
-        for (int body = 0; body < _touching.Length; body++)
-        {
-            List<(int Node, int Side)> blocks = _touching[body];
-            int hub = Array.BinarySearch(Hubs, body);
-            for (int i = 0; i < blocks.Count; i++)
-            {
-                if (hub >= 0)
-                {
-                    yield return (Blocks.Length + hub, blocks[i].Node);
-                }
-
-                for (int k = 0; k < i && hub < 0; k++)
-                {
-                    yield return (blocks[i].Node, blocks[k].Node);
-                }
-            }
-        }
-    }
-
-    private HubLink[] MakeHubLinks(BlockPattern pattern)
-    {
-        var links = new List<HubLink>();
-        for (int hub = 0; hub < Hubs.Length; hub++)
-        {
-            int node = Blocks.Length + hub;
-            foreach ((int block, int side) in _touching[Hubs[hub]])
-            {
-                bool isHubLater = pattern.IsBefore(block, node);
-                links.Add(new HubLink(block, side, hub, isHubLater, isHubLater ? pattern.Below(node, block) : pattern.Below(block, node)));
-            }
-        }
-
-        return links.ToArray();
-    }
-
-    private Link[] MakeLinks(List<(int Node, int Side)>[] touching, BlockPattern pattern)
-    {
-        var links = new List<Link>();
-        for (int body = 0; body < touching.Length; body++)
-        {
-            List<(int Node, int Side)> blocks = touching[body];
-            for (int i = 0; i < blocks.Count && !IsHub(body); i++)
-            {
-                for (int k = 0; k < i; k++)
-                {
-                    (int later, int laterSide) = blocks[i];
-                    (int earlier, int earlierSide) = blocks[k];
-                    if (pattern.IsBefore(later, earlier))
-                    {
-                        (later, laterSide, earlier, earlierSide) = (earlier, earlierSide, later, laterSide);
-                    }
-
-                    links.Add(new Link(later, laterSide, earlier, earlierSide, body, pattern.Below(later, earlier)));
-                }
-            }
-        }
-
-        return links.ToArray();
-    }
+    /// <inheritdoc cref="IslandMatrix.IsHub"/>
+    public bool IsHub(int body) => Hubs.Length > 0 && _matrix.IsHub(body);
 }

@@ -5,20 +5,12 @@ using Kinefab.Numerics;
 namespace Kinefab.Dynamics.Rattle;
 
 /// <summary>
-/// A = J M^-1 J^T of the built rows, regularised: a compliance is added to each diagonal, so that redundant rows share their
-/// load evenly (least norm) instead of making A singular: 1e-6 of it for rows with a linear part; for angular ones 1e-4 of
-/// what their bodies' largest moments would answer. 1e-3 of the diagonal, where a slender body may turn about its length,
-/// is as soft as the body's other turns are free: the iteration closes them slowly, and the projection leaves them speed.
-/// Only loops that are not exact need that softness. What the rows are solved for is the true residual, so consistent loops still
-/// close to the tolerance. Without loops no row is redundant, and the share would only hide the slow modes of long chains.
-/// Hubs, bodies that many blocks touch, stay in the matrix: see <see cref="Island.Hubs"/>.
+/// A = J M^-1 J^T of the built rows, with a compliance on its diagonal (<see cref="Regularisation{V}"/>); hubs, bodies that many blocks
+/// touch, stay in the matrix (<see cref="HubNodes{V}"/>).
 /// </summary>
 internal static class DelassusMatrix<V>
     where V : struct, ILane<V>
 {
-    // Share added to the diagonal for anchors.
-    private const double LinearShare = 1e-6;
-
     /// <summary>Share of what the largest moments answer that is added for locked angles in RATTLE steps.</summary>
     public const double AngularShare = 1e-4;
 
@@ -26,20 +18,6 @@ internal static class DelassusMatrix<V>
     public const double RoundedShare = 1e-3;
 
     private const int HingeRows = 5;
-
-    // A hub's unknowns, and the numbers of its roots.
-    private const int HubRows = 6;
-    private const int RootCount = 11;
-
-    // Share of the trace of an inverse inertia under which what is left of it is rounding: of an axis of infinite moment. A row along one has as
-    // much on its diagonal, as it has by rounding where the body is eliminated: with less, the rounding of its speed were a large impulse.
-    private const double LeastRoot = 1e-15;
-
-    // Against rounding alone.
-    private const double TreeShare = 1e-12;
-
-    // Least part of the diagonal of which an angular row gets its share: keeps the pivots of needles above rounding.
-    private const double LeastPart = 1e-5;
 
     /// <summary>The same in loops whose axes are off, while they are found: softer than a misalignment, harder than a freedom.</summary>
     public const double InconsistentShare = 0.1;
@@ -77,12 +55,12 @@ internal static class DelassusMatrix<V>
     }
 
     /// <summary>Fills the responses of all rows, the matrix from J and the bodies' inverse inertias.</summary>
-    public static void Assemble(LaneRecords<V> batch, double angularShare, double linearShare = LinearShare)
+    public static void Assemble(LaneRecords<V> batch, double angularShare, double linearShare = Regularisation<V>.LinearShare)
     {
         Array.Clear(batch.Matrix, 0, batch.Matrix.Length);
         if (batch.Shape.Hubs.Length > 0)
         {
-            AddHubs(batch);
+            HubNodes<V>.Add(batch);
         }
 
         for (int n = 0; n < batch.Shape.Blocks.Length; n++)
@@ -96,10 +74,10 @@ internal static class DelassusMatrix<V>
                 }
             }
 
-            Regularise(batch, n, block, angularShare, linearShare);
+            Regularisation<V>.Add(batch, n, block, angularShare, linearShare);
         }
 
-        foreach (Island.Link link in batch.Shape.Links)
+        foreach (IslandMatrix.BodyLink link in batch.Shape.BodyLinks)
         {
             AddLink(batch, link);
         }
@@ -134,109 +112,6 @@ internal static class DelassusMatrix<V>
         Array.Clear(work.Right, length, work.Right.Length - length);
         IterativeRefinement<V>.Solve(batch.Shape.Pattern, batch.Assembled, batch.Matrix, work.Right, work.Unknowns, work.Correction);
         Array.Copy(work.Unknowns, rows, length);
-    }
-
-    private static void AddHubs(LaneRecords<V> batch)
-    {
-        Island shape = batch.Shape;
-        int w = Lane<V>.Width;
-        Array.Clear(batch.Work.HubResponse, 0, batch.Work.HubResponse.Length);
-        for (int hub = 0; hub < shape.Hubs.Length; hub++)
-        {
-            WriteRoots(batch, shape.Hubs[hub], RootCount * hub * w);
-            int diagonal = shape.Pattern.Diagonal(shape.Blocks.Length + hub);
-            for (int i = 0; i < HubRows; i++)
-            {
-                Lane<V>.Splat(-1).Store(batch.Matrix, (diagonal + i * (HubRows + 1)) * w);
-            }
-        }
-
-        foreach (Island.HubLink link in shape.HubLinks)
-        {
-            AddHub(batch, link);
-        }
-    }
-
-    // Of the mass, and of the inverse inertia three columns, by Cholesky's rule with the largest pivot first: 0 for an infinite moment.
-    private static void WriteRoots(LaneRecords<V> batch, int body, int to)
-    {
-        int w = Lane<V>.Width;
-        int inverse = LaneRecords<V>.Body(body, BodyLanes.WorldInverse);
-        Lane<V>.Sqrt(Lane<V>.Load(batch.Bodies, LaneRecords<V>.Body(body, BodyLanes.InverseMass))).Store(batch.Work.HubRoots, to);
-        LaneVector<V> diagonal = LaneVector<V>.Load(batch.Bodies, inverse), off = LaneVector<V>.Load(batch.Bodies, inverse, 3);
-        var x = new LaneVector<V>(diagonal.X, off.X, off.Y);
-        var y = new LaneVector<V>(off.X, diagonal.Y, off.Z);
-        var z = new LaneVector<V>(off.Y, off.Z, diagonal.Z);
-        Lane<V> least = Lane<V>.Splat(LeastRoot) * (x.X + y.Y + z.Z);
-        for (int column = 0; column < 3; column++)
-        {
-            to += column == 0 ? w : 3 * w;
-            LaneVector<V> root = Root(x, y, z, least);
-            root.Store(batch.Work.HubRoots, to);
-            x -= root.X * root;
-            y -= root.Y * root;
-            z -= root.Z * root;
-        }
-
-        least.Store(batch.Work.HubRoots, to, 3);
-    }
-
-    // The column of the largest diagonal entry over its root.
-    private static LaneVector<V> Root(LaneVector<V> x, LaneVector<V> y, LaneVector<V> z, Lane<V> least)
-    {
-        Lane<V> largest = Lane<V>.Max(x.X, y.Y);
-        LaneVector<V> column = LaneVector<V>.Select(largest - y.Y, x, y);
-        largest = Lane<V>.Max(largest, z.Z);
-        column = LaneVector<V>.Select(largest - z.Z, column, z);
-        Lane<V> zero = Lane<V>.Splat(0);
-        return LaneVector<V>.Select(Lane<V>.Max(largest - least, zero), (Lane<V>.Splat(1) / Lane<V>.Sqrt(largest)) * column, new LaneVector<V>(zero, zero, zero));
-    }
-
-    // J W of one block's rows over a hub.
-    private static void AddHub(LaneRecords<V> batch, in Island.HubLink link)
-    {
-        double[] roots = batch.Work.HubRoots;
-        int w = Lane<V>.Width;
-        RowBlock block = batch.Shape.Blocks[link.Node];
-        int stride = 3 * block.Bodies.Length * w;
-        int o = batch.Row(link.Node, 0, link.Side);
-        int r = RootCount * link.Hub * w;
-        int row = batch.Shape.Pattern.Rows[link.Node] * w;
-        int cell = link.Block * w;
-        int step = (link.IsHubLater ? block.Rows : 1) * w;
-        int diagonal = batch.Shape.Pattern.Diagonal(link.Node) * w;
-        for (int i = 0; i < block.Rows; i++, o += stride, row += w, diagonal += (block.Rows + 1) * w, cell += link.IsHubLater ? w : HubRows * w)
-        {
-            LaneVector<V> linear = Lane<V>.Load(roots, r) * LinearPart(batch, block, i, link.Side, o);
-            LaneVector<V> angular = LaneVector<V>.Load(batch.Angular, o);
-            var turned = new LaneVector<V>(
-                LaneVector<V>.Dot(LaneVector<V>.Load(roots, r, 1), angular),
-                LaneVector<V>.Dot(LaneVector<V>.Load(roots, r, 4), angular),
-                LaneVector<V>.Dot(LaneVector<V>.Load(roots, r, 7), angular));
-            linear.X.Store(batch.Matrix, cell);
-            linear.Y.Store(batch.Matrix, cell + step);
-            linear.Z.Store(batch.Matrix, cell + 2 * step);
-            turned.X.Store(batch.Matrix, cell + 3 * step);
-            turned.Y.Store(batch.Matrix, cell + 4 * step);
-            turned.Z.Store(batch.Matrix, cell + 5 * step);
-            Lane<V> rounding = Lane<V>.Load(roots, r, 10) * LaneVector<V>.Dot(angular, angular);
-            (Lane<V>.Load(batch.Matrix, diagonal) + rounding).Store(batch.Matrix, diagonal);
-            Lane<V> response = LaneVector<V>.Dot(linear, linear) + LaneVector<V>.Dot(turned, turned);
-            (Lane<V>.Load(batch.Work.HubResponse, row) + response).Store(batch.Work.HubResponse, row);
-        }
-    }
-
-    private static LaneVector<V> LinearPart(LaneRecords<V> batch, RowBlock block, int row, int side, int at)
-    {
-        if (block.Classes[row] == RowClass.General)
-        {
-            return LaneVector<V>.Load(batch.Linear, at);
-        }
-
-        Lane<V> zero = Lane<V>.Splat(0);
-        Lane<V> one = Lane<V>.Splat(side == 0 ? 1 : -1);
-        RowClass along = block.Classes[row];
-        return new LaneVector<V>(along == RowClass.UnitX ? one : zero, along == RowClass.UnitY ? one : zero, along == RowClass.UnitZ ? one : zero);
     }
 
     // The responses of one body to the rows of a block, and what they add to the block's own cells; that of a hub does not.
@@ -325,7 +200,7 @@ internal static class DelassusMatrix<V>
         }
     }
 
-    private static void AddLink(LaneRecords<V> batch, in Island.Link link)
+    private static void AddLink(LaneRecords<V> batch, in IslandMatrix.BodyLink link)
     {
         RowBlock later = batch.Shape.Blocks[link.Later];
         RowBlock earlier = batch.Shape.Blocks[link.Earlier];
@@ -454,64 +329,5 @@ internal static class DelassusMatrix<V>
         Lane<V> product = inverseMass * Lane<V>.Load(batch.Linear, component);
         Lane<V> sum = Lane<V>.Load(batch.Matrix, cell);
         (side == 0 ? sum + product : sum - product).Store(batch.Matrix, cell);
-    }
-
-    private static void Regularise(LaneRecords<V> batch, int n, RowBlock block, double angularShare, double linearShare)
-    {
-        int cell = batch.Shape.Pattern.Diagonal(n) * Lane<V>.Width;
-        int row = batch.Shape.Pattern.Rows[n] * Lane<V>.Width;
-        if (batch.Shape.IsRedundant)
-        {
-            Lane<V> least = batch.CompliantStep > 0 ? Lane<V>.Load(batch.Work.CompliantInertia, 0)
-                : batch.Shape.Loops == LoopConsistency.Exact ? LeastResponse(batch, block)
-                : Lane<V>.Splat(double.PositiveInfinity);
-            Lane<V> still = batch.Shape.LockedInertiaBodies.Length > 0 ? Lane<V>.Splat(LeastPart) * LeastResponse(batch, block) : Lane<V>.Splat(0);
-            RegulariseLoops(batch, block, row, cell, least, still, angularShare, linearShare);
-        }
-        else
-        {
-            RegulariseTree(batch, block, row, cell);
-        }
-    }
-
-    private static void RegulariseTree(LaneRecords<V> batch, RowBlock block, int row, int cell)
-    {
-        int w = Lane<V>.Width;
-        Lane<V> share = Lane<V>.Splat(TreeShare);
-        for (int i = 0; i < block.BilateralCount; i++, row += w, cell += (block.Rows + 1) * w)
-        {
-            Lane<V> diagonal = Lane<V>.Load(batch.Matrix, cell);
-            (diagonal + share * (diagonal + Lane<V>.Load(batch.Work.HubResponse, row))).Store(batch.Matrix, cell);
-        }
-    }
-
-    // What the largest moments of a block's bodies would answer.
-    private static Lane<V> LeastResponse(LaneRecords<V> batch, RowBlock block)
-    {
-        Lane<V> least = Lane<V>.Splat(0);
-        foreach (int body in block.Bodies)
-        {
-            least += Lane<V>.Load(batch.Bodies, LaneRecords<V>.Body(body, BodyLanes.LeastInverseInertia));
-        }
-
-        return least;
-    }
-
-    // Least is infinite where angular rows get their share of the whole diagonal. One about an axis about which its bodies do not turn has nothing but
-    // rounding there, and gets that of a response that is still one.
-    private static void RegulariseLoops(LaneRecords<V> batch, RowBlock block, int row, int cell, Lane<V> least, Lane<V> still, double angularShare, double linearShare)
-    {
-        double[] matrix = batch.Matrix;
-        int w = Lane<V>.Width;
-        for (int i = 0; i < block.BilateralCount; i++, row += w, cell += (block.Rows + 1) * w)
-        {
-            bool isAngular = block.Classes[i] == RowClass.Angular;
-            Lane<V> diagonal = Lane<V>.Load(matrix, cell);
-            Lane<V> response = diagonal + Lane<V>.Load(batch.Work.HubResponse, row);
-            Lane<V> slow = !isAngular ? response : batch.CompliantStep > 0 ? least : Lane<V>.Max(still, Lane<V>.Min(response, Lane<V>.Max(least, Lane<V>.Splat(LeastPart) * response)));
-            Lane<V> compliance = Lane<V>.Splat(isAngular ? angularShare : linearShare) * slow;
-            compliance.Store(batch.Compliance, row);
-            (diagonal + compliance).Store(matrix, cell);
-        }
     }
 }

@@ -1,5 +1,4 @@
 using System;
-using Kinefab.Numerics;
 
 namespace Kinefab.Dynamics.Rattle;
 
@@ -29,23 +28,16 @@ internal sealed partial class LoopConsistencyProbe
     // Most that an angle gives on the way, rad: as much as where one axis of a plane loop is tilted by that.
     private const double MostGiven = 0.05;
 
-    // Iterations in which angles yield as well before anchors are closed alone, and in all.
-    private const int Yieldings = 3;
-    private const int MostClosings = 20;
-
-    // Gap of the anchors that counts as closed, against the levers' length.
-    private const double MostGap = 1e-6;
-
     private bool IsSlowAllRound(int mixture, bool[] held)
     {
-        var start = (double[])_batch.Bodies.Clone();
+        var start = _motion.Save();
         bool isSlow = true;
         for (int side = -1; side <= 1 && isSlow; side += 2)
         {
-            RestartAllowed(mixture);
-            Scale(side);
+            _motion.RestartAllowed(mixture);
+            _motion.Scale(side);
             isSlow = IsSlowForHalfATurn(held);
-            Array.Copy(start, _batch.Bodies, start.Length);
+            _motion.Restore(start);
         }
 
         return isSlow;
@@ -53,40 +45,38 @@ internal sealed partial class LoopConsistencyProbe
 
     private bool IsSlowForHalfATurn(bool[] held)
     {
-        var given = new double[_batch.Work.Error.Length];
+        var given = new double[_motion.RowCount];
         double made = 0, stride = LongestStride;
         while (made < HalfTurn)
         {
-            TakeWhatIsHeld();
-            double[] rates = Rates();
-            double pace = Pace(rates, held), fastest = Fastest(rates);
+            _motion.TakeWhatIsHeld();
+            double[] rates = _motion.Rates();
+            double pace = Pace(rates, held), fastest = LoopMotion.Fastest(rates);
             if (!(pace > LeastPace * fastest))
             {
                 return made > 0;
             }
 
-            Impulses<ScalarLane>.NegativeSpeeds(_batch, false);
-            if (made == 0 && !(MostAngular(_batch.Work.Solution) <= MostSpeed * pace))
+            if (made == 0 && !(_motion.AxesSpeed() <= MostSpeed * pace))
             {
                 return false;
             }
 
-            Scale(1 / fastest);
+            _motion.Scale(1 / fastest);
             double share = TryStride(held, pace / fastest, given, ref stride, out double moved);
             if (!(share >= LeastMade) || !(share <= MostMade))
             {
                 return share >= MostMade && made > 0;
             }
 
-            if (!(AngularError() <= MostGiven))
+            if (!(_motion.AngularError <= MostGiven))
             {
                 return false;
             }
 
             made += moved;
-            Array.Copy(_batch.Work.Error, given, given.Length);
-            RattleStep<ScalarLane>.Accept(_batch);
-            Allowed();
+            _motion.Accept(given);
+            _motion.Allowed();
         }
 
         return true;
@@ -96,12 +86,12 @@ internal sealed partial class LoopConsistencyProbe
     // close. Out of range only where the shortest stride is.
     private double TryStride(bool[] held, double pace, double[] given, ref double stride, out double moved)
     {
-        var before = (double[])_batch.Bodies.Clone();
+        var before = _motion.Save();
         for (; ; stride /= 2)
         {
-            Scale(stride);
-            bool isClosed = CloseAnchors(given);
-            moved = Pace(Rates(), held);
+            _motion.Scale(stride);
+            bool isClosed = _motion.CloseAnchors(given);
+            moved = Pace(_motion.Rates(), held);
             double share = isClosed ? moved / (stride * pace) : double.PositiveInfinity;
             if (stride < 2 * ShortestStride || (share >= LeastMade && share <= MostMade))
             {
@@ -109,55 +99,7 @@ internal sealed partial class LoopConsistencyProbe
                 return share;
             }
 
-            Array.Copy(before, _batch.Bodies, before.Length);
-        }
-    }
-
-    // Leaves of the velocities what the rows would not allow to the letter.
-    private void TakeWhatIsHeld()
-    {
-        var all = (double[])_batch.Bodies.Clone();
-        TakeToTheLetter(true);
-        TakeFrom(all);
-    }
-
-    // The velocities become what they lack of others.
-    private void TakeFrom(double[] all)
-    {
-        for (int body = 0; body < _batch.Shape.MovingBodies; body++)
-        {
-            int o = LaneBatch<ScalarLane>.Body(body, BodyLanes.V);
-            for (int i = o; i < o + 6; i++)
-            {
-                _batch.Bodies[i] = all[i] - _batch.Bodies[i];
-            }
-        }
-    }
-
-    // Moves the bodies by their velocities, which become those that lead to where the anchors are closed. Of the angles only what the stride adds to
-    // what they had given yields: all of it would lead back to the start, the farther the shorter the strides are.
-    private bool CloseAnchors(double[] given)
-    {
-        for (int i = 0; ; i++)
-        {
-            FreeMotion<ScalarLane>.Drift(_batch, 1);
-            BilateralRows<ScalarLane>.Evaluate(_batch);
-            BilateralRows<ScalarLane>.MeasureErrors(_batch);
-            Rebuild();
-            bool isClosed = _batch.Work.MaxGap[0] <= MostGap * _length;
-            if ((isClosed && i >= Yieldings) || i == MostClosings)
-            {
-                return isClosed;
-            }
-
-            for (int row = 0; row < given.Length; row++)
-            {
-                double error = _batch.Work.Error[row];
-                _batch.Work.Solution[row] = !_batch.Shape.IsAngular[row] ? -error : i < Yieldings ? given[row] - error : 0;
-            }
-
-            DelassusMatrix<ScalarLane>.Solve(_batch, _batch.Work.Solution);
-            Impulses<ScalarLane>.Apply(_batch, _batch.Work.Solution);
+            _motion.Restore(before);
         }
     }
 

@@ -40,42 +40,48 @@ internal sealed class ExactStepFindings
         var found = new List<Diagnostic>();
         foreach (ClosedPose pose in mechanism.Closed)
         {
-            (string id, string pointer) = Place(mechanism, bodies, joints, pose.Joint, pose.Body);
-            Add(found, DiagnosticCodes.StartClosed, pointer, ("object", id), ("gap", Length(pose.Error, pose.IsAngular)), ("distance", Length(pose.Distance, false)), ("turn", Length(pose.Angle, true)), ("time", Text(time)));
+            if (IsNew(DiagnosticCodes.StartClosed, mechanism, bodies, joints, pose.Joint, pose.Body, out (string Id, string Pointer) at))
+                Add(found, DiagnosticCodes.StartClosed, at.Pointer, ("object", at.Id), ("gap", Length(pose.Error, pose.IsAngular)), ("distance", Length(pose.Distance, false)), ("turn", Length(pose.Angle, true)), ("time", Text(time)));
         }
 
         foreach (ForbiddenSpeed one in mechanism.ForbiddenSpeeds)
         {
-            (string id, string pointer) = Place(mechanism, bodies, joints, one.Joint, one.Body);
-            Add(found, DiagnosticCodes.StartSpeedForbidden, pointer, ("object", id), ("speed", Speed(one)), ("time", Text(time)));
+            if (IsNew(DiagnosticCodes.StartSpeedForbidden, mechanism, bodies, joints, one.Joint, one.Body, out (string Id, string Pointer) at))
+                Add(found, DiagnosticCodes.StartSpeedForbidden, at.Pointer, ("object", at.Id), ("speed", Speed(one)), ("time", Text(time)));
         }
 
         foreach (UnsolvedStep step in mechanism.Unsolved)
         {
-            (string id, string pointer) = Place(mechanism, bodies, joints, step.Joint, step.Body);
-            Add(found, DiagnosticCodes.StepUnsolved, pointer, ("object", id), ("reason", Reason(step)), ("time", Text(time)), ("advice", Advice(step)));
+            if (IsNew(DiagnosticCodes.StepUnsolved, mechanism, bodies, joints, step.Joint, step.Body, out (string Id, string Pointer) at))
+                Add(found, DiagnosticCodes.StepUnsolved, at.Pointer, ("object", at.Id), ("reason", Reason(step)), ("time", Text(time)), ("advice", Advice(step)));
         }
 
         for (int i = 0; i < mechanism.HeldLimits.Count; i++)
         {
             HeldLimit first = mechanism.HeldLimits[i];
-            if (i == 0 || mechanism.HeldLimits[i - 1].Body != first.Body)
+            bool isFirst = i == 0 || mechanism.HeldLimits[i - 1].Body != first.Body;
+            if (isFirst && IsNew(DiagnosticCodes.LimitsContradict, mechanism, bodies, joints, first.Joint, first.Body, out (string Id, string Pointer) at))
             {
-                (_, string pointer) = Place(mechanism, bodies, joints, first.Joint, first.Body);
-                string names = string.Join(", ", mechanism.HeldLimits.Where(one => one.Body == first.Body).Select(one => Named(mechanism, bodies, joints, one)).Distinct());
-                Add(found, DiagnosticCodes.LimitsContradict, pointer, ("joints", names), ("time", Text(time)));
+                int body = first.Body;
+                string names = string.Join(", ", mechanism.HeldLimits.Where(one => one.Body == body).Select(one => Named(mechanism, bodies, joints, one)).Distinct());
+                Add(found, DiagnosticCodes.LimitsContradict, at.Pointer, ("joints", names), ("time", Text(time)));
             }
         }
 
         for (int i = 0; i < mechanism.StalledJoints.Count; i++)
         {
             StalledJoint first = mechanism.StalledJoints[i];
-            if (i == 0 || mechanism.StalledJoints[i - 1].Body != first.Body)
+            if ((i > 0 && mechanism.StalledJoints[i - 1].Body == first.Body) || !HasRoom(DiagnosticCodes.DriveStalled))
             {
-                List<StalledJoint> all = mechanism.StalledJoints.FindAll(one => one.Body == first.Body);
-                (_, string pointer) = Place(mechanism, bodies, joints, all.Find(one => one.IsDrive).Joint, first.Body);
+                continue;
+            }
+
+            int body = first.Body;
+            List<StalledJoint> all = mechanism.StalledJoints.FindAll(one => one.Body == body);
+            if (IsNew(DiagnosticCodes.DriveStalled, mechanism, bodies, joints, all.Find(one => one.IsDrive).Joint, body, out (string Id, string Pointer) at))
+            {
                 string names = string.Join(", ", all.Select(one => $"{NameOf(mechanism, bodies, joints, one.Joint, one.Body)} ({(one.IsDrive ? "drive" : "limit")})").Distinct());
-                Add(found, DiagnosticCodes.DriveStalled, pointer, ("joints", names), ("time", Text(time)));
+                Add(found, DiagnosticCodes.DriveStalled, at.Pointer, ("joints", names), ("time", Text(time)));
             }
         }
 
@@ -128,15 +134,33 @@ internal sealed class ExactStepFindings
         return string.Join(" ", causes);
     }
 
-    private void Add(List<Diagnostic> found, string code, string pointer, params (string Name, string Value)[] values)
+    // Before a finding is put into words: what is the case in every step is told in one.
+    private bool IsNew(
+        string code, MultibodySystem mechanism, IReadOnlyList<WorldBody> bodies, IReadOnlyList<WorldJoint> joints, JointModel? joint, int body, out (string Id, string Pointer) at)
     {
-        int said = _places.Count(place => place.Code == code);
-        if (said < Most && _places.Add((code, pointer)))
+        at = default;
+        if (!HasRoom(code))
         {
-            DiagnosticTable.Entry entry = DiagnosticTable.Entries[code];
-            found.Add(new Diagnostic(code, entry.Severity, DiagnosticTable.Fill(entry.Message, values), DiagnosticTable.Fill(entry.Remedy, values), pointer, null, null));
+            return false;
         }
+
+        at = Place(mechanism, bodies, joints, joint, body);
+        return _places.Add((code, at.Pointer));
     }
+
+    private bool HasRoom(string code)
+    {
+        int said = 0;
+        foreach ((string Code, string Place) place in _places)
+        {
+            said += place.Code == code ? 1 : 0;
+        }
+
+        return said < Most;
+    }
+
+    private static void Add(List<Diagnostic> found, string code, string pointer, params (string Name, string Value)[] values) =>
+        found.Add(Diagnostic.Of(code, pointer, values));
 
     private static string Length(double value, bool isAngle) =>
         isAngle ? FormattableString.Invariant($"{value * 180 / Math.PI:0.###} degrees") : FormattableString.Invariant($"{value:0.0e+0} m");

@@ -15,7 +15,7 @@ namespace Kinefab.Dynamics;
 
 /// <summary>
 /// The bodies and joints of a scene in motion, as Unity makes them at start-up. There are no contacts: colliders are not
-/// simulated. Bodies do not sleep. The same calls give the same bits; a step allocates nothing unless a joint breaks.
+/// simulated. Bodies do not sleep. The same calls give the same bits; a step allocates nothing unless a joint breaks or there is something new to tell of it.
 /// </summary>
 [DebuggerDisplay("{ToString(),nq}")]
 public sealed partial class World

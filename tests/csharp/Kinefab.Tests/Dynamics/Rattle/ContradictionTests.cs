@@ -40,6 +40,21 @@ internal sealed class ContradictionTests
     }
 
     [Test]
+    public void Step_LimitsThatContradictInManyMechanisms_AreToldOnceAndCostNoWordsAfterwards()
+    {
+        static HingeJoint Limited(double min, double max) => new() { Axis = Vector3d.UnitZ, UseLimits = true, Limits = new JointLimits { Min = min, Max = max } };
+        GameObject[] objects = [.. Enumerable.Range(0, 40).Select(i => new GameObject { Id = $"P{i}", Name = "P", Components = [new Rigidbody(), Limited(10, 20), Limited(-20, -10)] })];
+        World world = World.Create(SmallScene.Validate(new SceneDocument { GameObjects = objects }), SolverKind.Exact);
+        SmallScene.Run(world, 5 * SmallScene.Dt);
+        long bytes = AllocatedBytes.LeastOf(() => world.Step(SmallScene.Dt));
+        using (Assert.EnterMultipleScope())
+        {
+            Assert.That(world.Findings.Diagnostics.Count(found => found.Code == DiagnosticCodes.LimitsContradict), Is.EqualTo(10));
+            Assert.That(bytes, Is.LessThan(1000));
+        }
+    }
+
+    [Test]
     public void Motor_OnAFrameThatCannotMove_StallsAtThePriceOfAStep()
     {
         var b = new MechanismBuilder();

@@ -157,7 +157,8 @@ internal static class ClosureRows
         return rows;
     }
 
-    // Every other coordinate is driven a little to both sides; rows that then never move may be locked.
+    // Every other coordinate is driven a little to both sides; rows that then never move may be locked. From a singular pose a drive looks for
+    // branches along dozens of mixtures, so none is taken once all rows have moved.
     private static bool[] Moving(Mechanism mechanism, List<int> rows, CancellationToken cancellation)
     {
         var moves = new bool[rows.Count];
@@ -171,6 +172,8 @@ internal static class ClosureRows
             double way = mechanism.Coordinates[driver].IsAngle ? DriveAngle : DriveLength * mechanism.Length;
             foreach (double target in new[] { way, -way })
             {
+                if (Array.TrueForAll(moves, moved => moved))
+                    return moves;
                 state.CopyFrom(start);
                 solver.Drive(state, driver, target, cancellation);
                 for (int i = 0; i < moves.Length; i++)

@@ -30,7 +30,8 @@ internal sealed class SingularValues
             v[i][i] = 1;
         }
 
-        for (int sweep = 0; sweep < MaxSweeps && Sweep(a, v); sweep++)
+        double[] squares = Array.ConvertAll(a, column => DenseVector.Dot(column, column));
+        for (int sweep = 0; sweep < MaxSweeps && Sweep(a, v, squares); sweep++)
         {
         }
 
@@ -38,7 +39,7 @@ internal sealed class SingularValues
         var order = new int[columns];
         for (int i = 0; i < columns; i++)
         {
-            lengths[i] = Math.Sqrt(DenseVector.Dot(a[i], a[i]));
+            lengths[i] = Math.Sqrt(squares[i]);
             order[i] = i;
         }
 
@@ -95,15 +96,16 @@ internal sealed class SingularValues
         return a;
     }
 
-    private static bool Sweep(double[][] a, double[][] v)
+    // squares: of the columns' lengths, as they stand.
+    private static bool Sweep(double[][] a, double[][] v, double[] squares)
     {
         bool rotated = false;
         for (int i = 0; i < a.Length; i++)
         {
             for (int j = i + 1; j < a.Length; j++)
             {
-                double p = DenseVector.Dot(a[i], a[i]);
-                double q = DenseVector.Dot(a[j], a[j]);
+                double p = squares[i];
+                double q = squares[j];
                 double r = DenseVector.Dot(a[i], a[j]);
                 if (Math.Abs(r) <= Orthogonal * Math.Sqrt(p * q) || r == 0)
                 {
@@ -114,19 +116,26 @@ internal sealed class SingularValues
                 double zeta = (q - p) / (2 * r);
                 double t = (zeta < 0 ? -1 : 1) / (Math.Abs(zeta) + Math.Sqrt(1 + zeta * zeta));
                 double c = 1 / Math.Sqrt(1 + t * t);
-                Rotate(a[i], a[j], c, c * t);
-                Rotate(v[i], v[j], c, c * t);
+                (squares[i], squares[j]) = Rotate(a[i], a[j], c, c * t);
+                _ = Rotate(v[i], v[j], c, c * t);
             }
         }
 
         return rotated;
     }
 
-    private static void Rotate(double[] x, double[] y, double c, double s)
+    // Returns the squares of both lengths after it.
+    private static (double X, double Y) Rotate(double[] x, double[] y, double c, double s)
     {
-        for (int i = 0; i < x.Length; i++)
+        (double xx, double yy) = (0, 0);
+        for (int i = 0; i < x.Length && i < y.Length; i++)
         {
-            (x[i], y[i]) = (c * x[i] - s * y[i], s * x[i] + c * y[i]);
+            (double a, double b) = (c * x[i] - s * y[i], s * x[i] + c * y[i]);
+            (x[i], y[i]) = (a, b);
+            xx += a * a;
+            yy += b * b;
         }
+
+        return (xx, yy);
     }
 }

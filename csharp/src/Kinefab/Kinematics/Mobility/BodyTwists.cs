@@ -1,5 +1,6 @@
 using System;
 using System.Collections.Generic;
+using System.Linq;
 using System.Threading;
 using Kinefab.Numerics;
 
@@ -30,9 +31,16 @@ internal sealed class BodyTwists
     private readonly int[][] _moverPlaces;
     private readonly List<double[]>[] _settled;
     private readonly List<(int Block, double[,] Twists)>[] _open;
+    private readonly double _sameDirection;
+    private readonly double _least;
+    private readonly VelocitySpace[] _spaces;
 
-    private BodyTwists(Linkage linkage, NewtonSolver newton, Pose[] poses, IndependentLinkages parts, LoopMobility[] loops)
+    private BodyTwists(
+        Linkage linkage, NewtonSolver newton, Pose[] poses, IndependentLinkages parts, LoopMobility[] loops, VelocitySpace[] spaces, double sameDirection, double least)
     {
+        _spaces = spaces;
+        _sameDirection = sameDirection;
+        _least = least;
         _linkage = linkage;
         _newton = newton;
         _poses = poses;
@@ -62,19 +70,45 @@ internal sealed class BodyTwists
     /// <param name="poses">These poses.</param>
     /// <param name="parts">Its blocks.</param>
     /// <param name="loops">Their velocities at these poses.</param>
+    /// <param name="open">What the file is open by, in the mechanism's lengths or radians.</param>
     /// <param name="cancellation">Ends it early.</param>
-    public static List<BodyMobility> Of(Mechanism mechanism, NewtonSolver newton, Pose[] poses, IndependentLinkages parts, LoopMobility[] loops, CancellationToken cancellation)
+    public static List<BodyMobility> Of(
+        Mechanism mechanism, NewtonSolver newton, Pose[] poses, IndependentLinkages parts, LoopMobility[] loops, double open, CancellationToken cancellation)
     {
-        var twists = new BodyTwists(mechanism.Linkage, newton, poses, parts, loops);
+        VelocitySpace[] here = Array.ConvertAll(loops, loop => loop.Here);
+        var twists = new BodyTwists(mechanism.Linkage, newton, poses, parts, loops, here, SameDirection, LeastMotion);
+        bool isNoisy = NoisyRows.IsNoise(Array.ConvertAll(here, space => space.Dropped).Append(open).Max());
+        BodyTwists[] others = isNoisy ? Others(mechanism, newton, poses, parts, loops, open) : Array.Empty<BodyTwists>();
         var bodies = new List<BodyMobility>();
         foreach (int body in mechanism.Tree.Order)
         {
             cancellation.ThrowIfCancellationRequested();
             int rank = twists.Rank(body, out int rotations);
-            bodies.Add(new BodyMobility(mechanism.GameObjects[body], rank - rotations, rotations));
+            bool isInDoubt = false;
+            foreach (BodyTwists other in others)
+            {
+                int otherRank = other.Rank(body, out int otherRotations);
+                isInDoubt |= otherRank != rank || otherRotations != rotations;
+            }
+
+            bodies.Add(new BodyMobility(mechanism.GameObjects[body], rank - rotations, rotations, isInDoubt));
         }
 
         return bodies;
+    }
+
+    // As it may be in a pose that is off by what closes links in line: there a body moves that stands still at a dead centre, and what moves
+    // by no more than that may stand still.
+    private static BodyTwists[] Others(Mechanism mechanism, NewtonSolver newton, Pose[] poses, IndependentLinkages parts, LoopMobility[] loops, double open)
+    {
+        double turned = loops.Length == 0 ? 0 : loops.Max(loop => loop.Here.Turned(open));
+        BodyTwists Of(Converter<LoopMobility, VelocitySpace> space, double sameDirection, double least) =>
+            new(mechanism.Linkage, newton, poses, parts, loops, Array.ConvertAll(loops, space), sameDirection, least);
+        return new[]
+        {
+            Of(loop => loop.Here, Math.Max(SameDirection, turned), Math.Max(LeastMotion, turned)),
+            Of(loop => loop.Beside(turned), SameDirection, LeastMotion),
+        };
     }
 
     // A body's descendants are those with the places after its own up to its end.
@@ -128,7 +162,7 @@ internal sealed class BodyTwists
 
         if (own >= 0 && !isOpen)
         {
-            double[,] here = Moved(new double[_loops[own].FirstOrder, Width], own, body);
+            double[,] here = Moved(new double[_spaces[own].Freedoms, Width], own, body);
             going.AddRange(Span(here, point, own));
             open.Add((own, here));
         }
@@ -142,7 +176,7 @@ internal sealed class BodyTwists
         if (settled.Count > 0)
         {
             settled.AddRange(TwistSpan.Of(At(before, point), LeastMotion));
-            before = At(TwistSpan.Of(settled, SameDirection), -point);
+            before = At(TwistSpan.Of(settled, _sameDirection), -point);
         }
 
         _settled[body] = before;
@@ -154,14 +188,14 @@ internal sealed class BodyTwists
         }
 
         going.AddRange(TwistSpan.Of(At(before, point), LeastMotion));
-        List<double[]> all = TwistSpan.Of(going, SameDirection);
+        List<double[]> all = TwistSpan.Of(going, _sameDirection);
         rotations = Rotations(all);
         return all.Count;
     }
 
     // What may be in a block's velocity without being in its motion is none: a parallelogram's link with axes off by a little does not turn.
     private List<double[]> Span(double[,] twists, Vector3d point, int block) =>
-        TwistSpan.Moving(At(twists, point), Math.Max(LeastMotion, _loops[block].Here.Noise));
+        TwistSpan.Moving(At(twists, point), Math.Max(_least, _spaces[block].Noise));
 
     private bool GoesOn(int block, int body)
     {
@@ -174,7 +208,7 @@ internal sealed class BodyTwists
     private double[,] Moved(double[,] parent, int block, int body)
     {
         var twists = (double[,])parent.Clone();
-        VelocitySpace space = _loops[block].Here;
+        VelocitySpace space = _spaces[block];
         int place = _loops[block].Part.IndexOf(body);
         for (int m = 0; m < space.Freedoms; m++)
         {
@@ -240,7 +274,7 @@ internal sealed class BodyTwists
     }
 
     // Independent directions that orthonormal twists turn about.
-    private static int Rotations(List<double[]> twists)
+    private int Rotations(List<double[]> twists)
     {
         var turns = new double[twists.Count, Width / 2];
         for (int m = 0; m < twists.Count; m++)
@@ -251,6 +285,6 @@ internal sealed class BodyTwists
             }
         }
 
-        return new SingularValues(turns).Rank(SameDirection);
+        return new SingularValues(turns).Rank(_sameDirection);
     }
 }

@@ -10,6 +10,11 @@ internal sealed class LoopMobility
     // Length of a row, of about 1 at the start, that has to be left beside the rows before it for it to count.
     private const double IndependentRow = 1e-6;
 
+    private readonly NewtonSolver _newton;
+    private readonly FineClosing _closing;
+    private readonly FreedomBlocks _blocks;
+    private readonly MechanismState _state;
+
     /// <summary>Of a part, by itself.</summary>
     /// <param name="part">Which.</param>
     /// <param name="closed">The mechanism's exported pose, closed as well as it can be.</param>
@@ -22,11 +27,13 @@ internal sealed class LoopMobility
         var closing = new FineClosing(part.Linkage, newton, state);
         var blocks = new FreedomBlocks(part.Linkage, newton.Firsts, newton.Motion.Linear.Length);
         Here = new VelocitySpace(part.Linkage, newton, blocks, state);
+        (_newton, _closing, _blocks, _state) = (newton, closing, blocks, state);
         Rank = newton.Motion.Linear.Length - Here.Freedoms;
         Motions = Here.Basis;
         (Finite, AtGeneralPose) = (Here.Freedoms, Here.Freedoms);
         if (!NoisyRows.Keep(newton, Here, state))
         {
+            closing.Follow(Here.Dropped);
             var finite = new FiniteMobility(part.Linkage, newton, blocks, closing, Here, state, cancellation);
             (Finite, AtGeneralPose) = (finite.Freedoms, finite.AtGeneralPose);
             Motions = Finite < FirstOrder ? finite.Motions : Motions;
@@ -51,9 +58,30 @@ internal sealed class LoopMobility
     public int AtGeneralPose { get; }
 
     /// <summary>
+    /// How many freedoms more or fewer may be meant: those that little holds, and of a file that is open by more than a rounding those at a
+    /// dead centre, which rows that are off by as much obstruct, hold for good or let go.
+    /// </summary>
+    /// <param name="gap">What the file is open by, in the mechanism's lengths or radians.</param>
+    public int InDoubt(double gap)
+    {
+        bool isNoisy = NoisyRows.IsNoise(Math.Max(gap, Here.Dropped));
+        return Math.Max(Here.InDoubt, isNoisy ? Here.HeldBy(gap) + FirstOrder - Finite : 0);
+    }
+
+    /// <summary>
     /// The velocities at the exported pose that lead into the finite motions; where others do not, known to the curvature of a trial step.
     /// </summary>
     public IReadOnlyList<double[]> Motions { get; }
+
+    /// <summary>The velocities some way beside the exported pose, radians or lengths.</summary>
+    public VelocitySpace Beside(double way)
+    {
+        MechanismState there = _state.Clone();
+        _newton.Motion.Start(there.Poses);
+        _newton.Motion.Move(there.Poses, Here.Mixture(0, way));
+        _closing.Close(there);
+        return new VelocitySpace(Part.Linkage, _newton, _blocks, there);
+    }
 
     /// <summary>
     /// Notes for each closing joint, by the mechanism's index, how many rows repeat others: nothing of such a row is left beside

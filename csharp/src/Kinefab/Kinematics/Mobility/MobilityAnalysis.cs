@@ -23,6 +23,7 @@ public static class MobilityAnalysis
             throw new ArgumentNullException(nameof(mechanism));
         var newton = new NewtonSolver(mechanism.Linkage, cancellation);
         MechanismState state = mechanism.NewState();
+        double open = Open(mechanism, newton, state);
         newton.Close(state);
         newton.Motion.Start(state.Poses);
         var blocks = new FreedomBlocks(mechanism.Linkage, newton.Firsts, newton.Motion.Linear.Length);
@@ -39,7 +40,7 @@ public static class MobilityAnalysis
             loops[b] = new LoopMobility(parts.Make(b, state.Poses), state, cancellation);
             loops[b].CountRedundant(redundant);
             gap = Math.Min(gap, loops[b].Here.Gap);
-            inDoubt += loops[b].Here.InDoubt;
+            inDoubt += loops[b].InDoubt(open);
             general += loops[b].AtGeneralPose;
         }
 
@@ -56,10 +57,25 @@ public static class MobilityAnalysis
             redundantRows += island.Redundant;
         }
 
-        List<BodyMobility> bodies = BodyTwists.Of(mechanism, newton, state.Poses, parts, loops, cancellation);
+        List<BodyMobility> bodies = BodyTwists.Of(mechanism, newton, state.Poses, parts, loops, open, cancellation);
         bodies.Sort((a, b) => a.GameObject.CompareTo(b.GameObject));
         int rows = 6 * mechanism.Tree.Order.Length - firstOrder + redundantRows;
         return new MobilityReport(mobility, firstOrder, general, rows, redundantRows, gap, inDoubt, islands, bodies, Named(mechanism, redundant), idle);
+    }
+
+    // What the exported pose is open by: its joints as they stand, and what the exporter says that it missed the source's by, of which a Unity
+    // joint that takes its other side from the pose no longer has a trace.
+    private static double Open(Mechanism mechanism, NewtonSolver newton, MechanismState state)
+    {
+        newton.Motion.Start(state.Poses);
+        newton.Assemble(state);
+        double open = newton.Equations.Worst;
+        if (mechanism.Scene.Document.Analysis?.ClosureGap is Document.ClosureGap stated)
+        {
+            open = Math.Max(open, Math.Max(stated.Position / mechanism.Length, stated.Angle * Math.PI / 180));
+        }
+
+        return open;
     }
 
     // For each joint the rows that repeat others: at first those of joints between bodies that the tree holds already.

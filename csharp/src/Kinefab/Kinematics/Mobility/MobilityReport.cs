@@ -8,8 +8,9 @@ namespace Kinefab.Kinematics;
 [DebuggerDisplay("{ToString(),nq}")]
 public sealed class BodyMobility
 {
-    internal BodyMobility(int gameObject, int translations, int rotations)
+    internal BodyMobility(int gameObject, int translations, int rotations, bool isInDoubt)
     {
+        IsInDoubt = isInDoubt;
         GameObject = gameObject;
         Translations = translations;
         Rotations = rotations;
@@ -23,6 +24,9 @@ public sealed class BodyMobility
 
     /// <summary>Independent angular velocities, 0 to 3.</summary>
     public int Rotations { get; }
+
+    /// <summary>Whether it can do more, or less, as far as the file tells: some of its velocities are as small as what its joints are off by.</summary>
+    internal bool IsInDoubt { get; }
 
     /// <summary>object 3: 0 translations, 1 rotation.</summary>
     public override string ToString() => $"object {GameObject}: {Invariant.Counted(Translations, "translation")}, {Invariant.Counted(Rotations, "rotation")}";

@@ -17,7 +17,7 @@ internal static class NoisyRows
     private const double Noise = 1e-9;
 
     // Length of a trial step, radians or lengths.
-    private const double Way = 1e-2;
+    private const double Way = 5e-2;
 
     // Times the noise that the repeated rows may be missed by: it grows along the way, and is spread over the rows.
     private const double Allowed = 8;
@@ -28,6 +28,9 @@ internal static class NoisyRows
 
     // Against the square of a kept singular value; what is left of a step falls by their ratio with each chord.
     private const double Damping = 1e-12;
+
+    /// <summary>Whether an error, or a singular value that does not count, is more than rounding makes.</summary>
+    public static bool IsNoise(double error) => error > Noise;
 
     /// <summary>Whether there is noise, and all velocities are motions that keep the rows as well as these repeat each other.</summary>
     /// <param name="newton">Of a linkage.</param>

@@ -18,12 +18,22 @@ internal sealed class FineClosing
     // nothing of what the others leave, all of its rows are a rounding.
     private const double Cut = 1e-10;
 
+    // Rows that repeat others, but not quite, hold nothing up to this many times what they are off by, and no step is asked to come nearer
+    // than so far off along the shortest way; an obstructed velocity's row has grown to more than the least singular value there.
+    private const double NoiseBeside = 10;
+    private const double ShortestWay = 0.01;
+    private const double LeastObstructing = 1e-4;
+
     // Error that is rounding. Times what a state is closed to up to which another came back onto the joints beyond doubt, and beyond which
     // it got stuck: what is closed to a rounding of the file here may be closed to many there.
     private const double Rounding = 1e-14;
     private const double Beside = 10;
     private const double Stuck = 1e4;
     private const double LargestStep = 0.3;
+
+    // Gap that is more than rounding, and times its root that closing it may turn by.
+    private const double LeastNoise = 1e-9;
+    private const double Far = 4;
 
     // Of rows: most that an error is beside its linearisation, over the square of the step; lengths and angles of 1 make 1 or 2.
     private const double Curvature = 4;
@@ -40,18 +50,35 @@ internal sealed class FineClosing
 
     private readonly NewtonSolver _newton;
     private readonly Pose[] _before;
+    private readonly Pose[] _best;
+    private readonly double[] _toBest;
     private double _goal = Rounding;
+    private double _cut;
 
     /// <summary>Of a solver's linkage, closing a state of it first: what that cannot be closed to, no other is asked for.</summary>
     public FineClosing(Linkage linkage, NewtonSolver newton, MechanismState state)
     {
         _newton = newton;
         _before = new Pose[linkage.BodyCount];
+        _best = new Pose[linkage.BodyCount];
+        _toBest = new double[newton.Motion.Linear.Length];
         Closing = new double[newton.Motion.Linear.Length];
         IsFew = Closing.Length <= Few || linkage.Tree.Order.Length <= FewBodies;
-        Close(state);
+        CloseFirst(linkage, state);
         _goal = Math.Max(Rounding, 2 * Worst);
         newton.Accepted = Math.Max(newton.Accepted, 4 * Worst);
+    }
+
+    /// <summary>
+    /// Asks for no more from now on than rows that should repeat each other do: axes that a CAD program left 1e-7 rad off would lock at other
+    /// poses what moves there.
+    /// </summary>
+    /// <param name="noise">The largest singular value of the rows that do not count.</param>
+    public void Follow(double noise)
+    {
+        _cut = Math.Min(NoiseBeside * noise, LeastObstructing);
+        _goal += ShortestWay * _cut;
+        _newton.Accepted = Math.Max(_newton.Accepted, _goal);
     }
 
     /// <summary>Sum of the steps of the last Close.</summary>
@@ -87,6 +114,27 @@ internal sealed class FineClosing
         return IsClosed;
     }
 
+    // Links in line that miss their joints by a gap close it turned by about its root. What went much further ran after rows that are off by as
+    // much and nearly repeat each other, to another pose than the file's.
+    private void CloseFirst(Linkage linkage, MechanismState state)
+    {
+        _newton.ClearDriven();
+        _newton.Motion.Start(state.Poses);
+        _ = _newton.Rows(state);
+        double gap = _newton.Equations.Worst;
+        MechanismState closed = state.Clone();
+        Close(closed);
+        double size = Math.Min(1, MechanismScale.LinkLength(linkage.Joints, state.Poses, linkage.Length) / linkage.Length);
+        if (gap <= LeastNoise || DenseVector.Largest(Closing) <= Far * Math.Sqrt(2 * gap / size))
+        {
+            state.CopyFrom(closed);
+            return;
+        }
+
+        Array.Clear(Closing, 0, Closing.Length);
+        Worst = gap;
+    }
+
     private void Iterate(MechanismState state)
     {
         Array.Clear(Closing, 0, Closing.Length);
@@ -94,6 +142,9 @@ internal sealed class FineClosing
         PackedRows rows = _newton.Rows(state);
         Worst = _newton.Equations.Worst;
         double share = 1;
+        double least = Worst;
+        Array.Copy(state.Poses, _best, _best.Length);
+        Array.Clear(_toBest, 0, _toBest.Length);
         int stalled = 0;
         for (int n = 0; n < MaxIterations && Worst > _goal && stalled < (share < 1 ? MostStalledCut : MostStalled); n++)
         {
@@ -125,6 +176,20 @@ internal sealed class FineClosing
             stalled = now > Stalled * Worst ? stalled + 1 : 0;
             DenseVector.Add(Closing, 1, step);
             (rows, Worst) = (there, now);
+            if (Worst <= least)
+            {
+                least = Worst;
+                Array.Copy(state.Poses, _best, _best.Length);
+                Array.Copy(Closing, _toBest, _toBest.Length);
+            }
+        }
+
+        // Joints that no pose closes push it ever further off.
+        if (!(Worst <= least))
+        {
+            Array.Copy(_best, state.Poses, _best.Length);
+            Array.Copy(_toBest, Closing, _toBest.Length);
+            Worst = least;
         }
 
         _newton.ReadValues(state);
@@ -150,7 +215,7 @@ internal sealed class FineClosing
         }
 
         var values = new SingularValues((double[,])matrix.Clone());
-        double[] along = Along(values, matrix, errors);
+        double[] along = Along(values, matrix, errors, _cut);
         var step = new double[Closing.Length];
         double left = DenseVector.Dot(along, along);
         double squares = 0;
@@ -180,10 +245,10 @@ internal sealed class FineClosing
     }
 
     // The errors along the left singular vectors that count.
-    private static double[] Along(SingularValues values, double[,] matrix, double[] errors)
+    private static double[] Along(SingularValues values, double[,] matrix, double[] errors, double cut)
     {
         int columns = values.Values.Length;
-        var along = new double[columns == 0 ? 0 : values.Rank(Cut * Math.Max(1, values.Values[0]))];
+        var along = new double[columns == 0 ? 0 : values.Rank(Math.Max(cut, Cut * Math.Max(1, values.Values[0])))];
         for (int k = 0; k < along.Length; k++)
         {
             for (int r = 0; r < errors.Length; r++)

@@ -30,6 +30,8 @@ internal sealed class VelocitySpace
     private readonly int[] _firsts;
     private readonly Linkage _linkage;
     private readonly List<double[]> _basis = new();
+    private readonly List<double> _kept = new();
+    private readonly double _size;
 
     /// <summary>Of a closed state.</summary>
     public VelocitySpace(Linkage linkage, NewtonSolver newton, FreedomBlocks blocks, MechanismState state)
@@ -44,10 +46,10 @@ internal sealed class VelocitySpace
         Angular = (Vector3d[])newton.Motion.Angular.Clone();
 
         // A row holds a unit force or moment: what is far smaller beside a link's length is a rounding, or noise, were it the largest.
-        double size = Math.Min(1, MechanismScale.LinkLength(linkage.Joints, state.Poses, linkage.Length) / linkage.Length);
+        _size = Math.Min(1, MechanismScale.LinkLength(linkage.Joints, state.Poses, linkage.Length) / linkage.Length);
         for (int b = 0; b < blocks.Columns.Count; b++)
         {
-            AddMotions(newton, blocks.Columns[b], Rows.Of(b, blocks.BlockOf), n, size);
+            AddMotions(newton, blocks.Columns[b], Rows.Of(b, blocks.BlockOf), n, _size);
         }
     }
 
@@ -79,6 +81,21 @@ internal sealed class VelocitySpace
     /// <param name="direction">By its place.</param>
     /// <param name="round">Another mixture for each.</param>
     public static double Weight(int direction, int round) => SplitMix.Around0(((ulong)round << 32) + (ulong)direction);
+
+    /// <summary>
+    /// How many singular values that count may come from what the file is open by alone. Links of length l in line that miss their joints by a
+    /// gap g close it turned by about the root of 2 g / l, and hold the velocity that they have in line by as much.
+    /// </summary>
+    /// <param name="gap">In the mechanism's lengths or radians.</param>
+    public int HeldBy(double gap)
+    {
+        double turned = Turned(gap);
+        return _kept.FindAll(value => value <= turned).Count;
+    }
+
+    /// <summary>How far links in line turn that close a gap.</summary>
+    /// <param name="gap">In the mechanism's lengths or radians.</param>
+    public double Turned(double gap) => Math.Sqrt(2 * gap / _size);
 
     /// <summary>A step along a mixture of all velocities, the same on every machine; zero where there are none.</summary>
     /// <param name="round">Another mixture for each.</param>
@@ -238,6 +255,7 @@ internal sealed class VelocitySpace
             Dropped = Math.Max(Dropped, rest);
         }
 
+        _kept.AddRange(kept);
         _basis.AddRange(isRefined ? motions : motions.ConvertAll(motion => Spread(motion, columns, freedoms)));
     }
 

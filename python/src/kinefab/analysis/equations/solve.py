@@ -33,6 +33,10 @@ CURVATURE = 4.0
 """Of rows: most that a residual is beside its linearisation, over the square of the step; two unit lengths and angles make 1 or 2."""
 FINE_CUT = 1e-10
 """The same of a cautious step: the fourth power of the way x leaves a singular value of x cubed."""
+NOISE_BESIDE = 10.0
+"""Times what rows are off by that repeat others, but not quite, up to which they hold nothing."""
+LEAST_OBSTRUCTING = 1e-4
+"""Singular value that the row which obstructs a velocity has grown to along the shortest step that tells."""
 FEW = 72
 """Largest number of unknowns for which a cautious step, which takes singular values, is worth its time."""
 DENSE = 180
@@ -57,11 +61,14 @@ class Solver:
 
     part: shape (bodies,), the part a body belongs to, -1 for body 0 and for bodies without rows.
     cautious: closes poses by ``cautious_step``, where the parts are small.
+    noise: largest singular value of rows that repeat others, but not quite: axes that a CAD program left 1e-7 rad off would lock at
+    other poses what moves here, so cautious steps do not follow them.
     """
 
-    def __init__(self, system: System, *, cautious: bool = False):
+    def __init__(self, system: System, *, cautious: bool = False, noise: float = 0.0):
         self.system = system
         self.cautious = cautious
+        self.noise = noise
         self._copies: dict[int, Solver] = {}
         n = system.bodies
         # What a row counts from inside of one body stands still, and ties that body to nothing.
@@ -142,10 +149,15 @@ class Solver:
         group, at = self._place[part]
         return self.system.part(atoms, group.rows[at], group.bodies[at])
 
+    @property
+    def cut(self) -> float:
+        """Singular value up to which rows hold nothing that a cautious step has to keep."""
+        return min(NOISE_BESIDE * self.noise, LEAST_OBSTRUCTING)
+
     def copies(self, count: int) -> Solver:
         """Of the system side by side with itself, ``count`` times, see ``repeated``: every part is there so many times."""
         if count not in self._copies:
-            self._copies[count] = Solver(repeated(self.system, count), cautious=self.cautious)
+            self._copies[count] = Solver(repeated(self.system, count), cautious=self.cautious, noise=self.noise)
         return self._copies[count]
 
     @cached_property
@@ -264,8 +276,9 @@ class Solver:
                 # a steep coupling's row would hide what the others tell beside it
                 size = np.maximum(1.0, np.linalg.norm(jacobian, axis=2))
                 unit, errors = jacobian / size[..., None], residual[group.rows[take]] / size
+                most = None if longest is None else longest[group.members[take]]
                 if self.cautious and jacobian.shape[2] <= FEW:
-                    step = -cautious_step(unit, errors, None if longest is None else longest[group.members[take]])
+                    step = -cautious_step(unit, errors, most, self.cut)
                 else:
                     step = -minimum_norm(unit, errors)
             step = step.reshape(len(step), -1, 6) * damp[group.members[take]][:, None, None]
@@ -299,16 +312,17 @@ def minimum_norm(jacobian: Array, residual: Array) -> Array:
     return np.einsum("mkn,mk->mn", vt, inverse * np.einsum("mrk,mr->mk", u, residual))
 
 
-def cautious_step(jacobian: Array, residual: Array, longest: Array | None = None) -> Array:
+def cautious_step(jacobian: Array, residual: Array, longest: Array | None = None, cut: float = 0.0) -> Array:
     """As ``minimum_norm``, but only as long as it has to be for the residual to become what the step's own curvature may leave.
 
-    longest: shape (m,), that each may be; it ends before the direction that makes it longer.
+    longest: shape (m,), that each may be; it ends before the direction that makes it longer.  cut: singular value up to which a
+    direction takes no part.
 
     The weakest rows ask for the longest steps, and nothing of them is known before the others are closed: where o o = 0 and
     o s = 0, a step that obeyed both would halve the motion s each time that it halves o.
     """
     u, s, vt = np.linalg.svd(jacobian, full_matrices=False)
-    along = np.einsum("mrk,mr->mk", u, residual) * (s > FINE_CUT * s[:, :1])
+    along = np.einsum("mrk,mr->mk", u, residual) * (s > np.maximum(cut, FINE_CUT * s[:, :1]))
     shares = np.divide(along, s, out=np.zeros_like(s), where=along != 0.0)
     left = np.cumsum(along[:, ::-1] ** 2, axis=1)[:, ::-1]  # before each direction, from the strongest on
     length = np.cumsum(shares**2, axis=1)

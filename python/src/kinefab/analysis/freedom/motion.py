@@ -17,7 +17,7 @@ from ..equations.solve import FEW, Solver
 from ..equations.system import State
 from .branches import NOISY_GAP, held_there, largest_branch, mixtures_move
 from .first_order import BlockFreedom, block_freedoms
-from .noise import moves_up_to_noise
+from .noise import moves_up_to_noise, noise_of
 from .probes import OPEN, STEP, TELLING, WHOLE, floor_of, kept_of, left_of, random_direction, trial
 from .second_order import second_order
 from .stacks import alike
@@ -165,8 +165,9 @@ def walked(solver: Solver, part: int, first_order: BlockFreedom, start: State, s
 
 
 def _searched(solver: Solver, part: int, first_order: BlockFreedom) -> FiniteFreedom:
-    """Walk away from the start pose, then try every direction of the null space there."""
-    solver, part = Solver(solver.alone(part), cautious=True), 0
+    """Walk away from the start pose, then try every direction of the null space there: up to what its rows are off by."""
+    system = solver.alone(part)
+    solver, part = Solver(system, cautious=True, noise=noise_of(system, first_order.rank)), 0
     first_order = replace(first_order, bodies=np.arange(1, solver.system.bodies))
     start = solver.system.start()
     if len(first_order.basis) > FEW and first_order.mobility**2 * len(first_order.basis) <= MOST_FORMS:

@@ -13,7 +13,7 @@ import numpy as np
 from ..equations.system import System
 from .first_order import BlockFreedom
 
-WAY = 1e-2
+WAY = 5e-2
 """Length of a trial step, radians or fractions of the length."""
 ALLOWED = 8.0
 """Times the noise that the repeated rows may be missed by: it grows along the way, and is spread over the rows."""
@@ -21,6 +21,14 @@ CHORDS = 8
 """Steps back onto the rows; each shrinks what is left by about ``WAY``."""
 LARGEST = 1_200
 """Unknowns of a block beyond which its singular values are not taken."""
+
+
+def noise_of(system: System, rank: int) -> float:
+    """Largest singular value that does not count, of a block alone at its start pose; 0 of one too large."""
+    if 6 * (system.bodies - 1) > LARGEST:
+        return 0.0
+    s = np.linalg.svd(system.dense(system.start())[1], compute_uv=False)
+    return float(s[rank]) if rank < len(s) else 0.0
 
 
 def moves_up_to_noise(system: System, freedom: BlockFreedom) -> bool:

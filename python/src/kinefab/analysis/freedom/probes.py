@@ -14,6 +14,8 @@ from .first_order import BlockFreedom
 
 STEP = 1e-3
 """Size of a trial step, radians or fractions of the length."""
+SHORTEST_WAY = 1e-2
+"""Way along which rows that do not quite repeat each other may come apart by what they are off by."""
 FURTHEST = 0.2
 """Size of the largest."""
 STILL = 1e-6
@@ -39,8 +41,8 @@ def random_direction(basis: Array, draw: np.random.Generator) -> Array:
 
 
 def floor_of(solver: Solver, state: State) -> Array:
-    """A pose that cannot be closed further is asked for no more than it has."""
-    return np.maximum(1e-14, 2.0 * solver.worst(solver.system.residual(state)))
+    """A pose that cannot be closed further is asked for no more than it has, and none for more than rows repeat each other to."""
+    return np.maximum(1e-14, 2.0 * solver.worst(solver.system.residual(state))) + SHORTEST_WAY * solver.cut
 
 
 def _most_open(floor: Array, step: float) -> Array:

@@ -28,7 +28,7 @@ class DeadCentre:
         if exact:
             self.noise, self.digit = 0, None
         self.scene = kinefab.Scene()
-        self.turn = exponential(self._gauss(1) * draw.choice([0, 1]))
+        self.turn = exponential(self.gauss(1) * draw.choice([0, 1]))
         self.base = self.scene.add_part("base", grounded=True)
         self.parts = 0
         self.hinges: list[kinefab.Joint] = []
@@ -41,7 +41,7 @@ class DeadCentre:
         if draw.random() < 0.6:
             self._extras()
 
-    def _gauss(self, size: float) -> Array:
+    def gauss(self, size: float) -> Array:
         return np.array([self.draw.gauss(0, 1) for _ in range(3)]) * size
 
     def _at(self, point: Array | tuple[float, float, float]) -> Array:
@@ -49,22 +49,22 @@ class DeadCentre:
 
     def part(self, point: Array | tuple[float, float, float] = (0, 0, 0)) -> int:
         self.parts += 1
-        place = self._at(np.asarray(point, dtype=float) + 0.1 * self._gauss(1))
+        place = self._at(np.asarray(point, dtype=float) + 0.1 * self.gauss(1))
         return self.scene.add_part(f"p{self.parts}", mass=1.0, translation=tuple(place))
 
     def joint(self, kind: str, a: int, b: int, point, axis=Z) -> None:
         place, way = self._at(point), self.turn @ (np.asarray(axis, dtype=float) / np.linalg.norm(axis))
         if self.sides != "apart":
             if self.what != "axis":
-                place = place + self._gauss(self.noise) * self.size
+                place = place + self.gauss(self.noise) * self.size
             if self.what != "point":
-                way = exponential(self._gauss(self.noise)) @ way
+                way = exponential(self.gauss(self.noise)) @ way
         if self.digit:
             place = np.round(place / self.digit) * self.digit
         joint = self.scene.add_joint(kind, a, b, point=tuple(place), axis=tuple(way))
         if self.sides != "alike":
-            moved = joint.frame_b.translation + (self._gauss(self.noise) * self.size if self.what != "axis" else 0)
-            turned = joint.frame_b.rotation @ (exponential(self._gauss(self.noise)) if self.what != "point" else np.eye(3))
+            moved = joint.frame_b.translation + (self.gauss(self.noise) * self.size if self.what != "axis" else 0)
+            turned = joint.frame_b.rotation @ (exponential(self.gauss(self.noise)) if self.what != "point" else np.eye(3))
             if self.digit:
                 moved = np.round(moved / self.digit) * self.digit
             joint = replace(joint, frame_b=Pose(turned, moved))
@@ -94,7 +94,7 @@ class DeadCentre:
         if draw.random() < 0.3:
             hung = self.part()
             on = draw.randrange(1, self.parts)
-            self.hinge(on, hung, self._gauss(0.5), self._gauss(1))
+            self.hinge(on, hung, self.gauss(0.5), self.gauss(1))
         if draw.random() < 0.3:
             rod = self.part()
             on = draw.randrange(0, self.parts - 1)
@@ -125,7 +125,7 @@ def parallelogram(m: DeadCentre) -> None:
 
 def toggle(m: DeadCentre) -> None:
     """Two bars in line between fixed hinges: it stands, though not to first order."""
-    (a, b), p, q = m.lengths(2), m.part(), None
+    (a, b), p = m.lengths(2), m.part()
     q = m.part((a, 0, 0))
     for first, second, x in ((m.base, p, 0), (p, q, a), (m.base, q, a + b)):
         m.hinge(first, second, (x, 0, 0))
@@ -151,7 +151,7 @@ def spherical(m: DeadCentre) -> None:
             turn = round(m.draw.uniform(0, 2 * math.pi), 2)
             axes.append(np.array([math.cos(turn), math.sin(turn), 0]))
         else:
-            axes.append(m._gauss(1))
+            axes.append(m.gauss(1))
     p = [m.base] + [m.part() for _ in range(count - 1)]
     for i, axis in enumerate(axes):
         a, b = sorted((p[i], p[(i + 1) % count]))

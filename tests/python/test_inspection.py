@@ -26,9 +26,9 @@ def test_number_that_is_not_finite_is_a_finding(tmp_path, number, show):
     assert found.where == f"{path}#/extras/own"
 
 
-def test_what_is_no_file_is_a_finding(tmp_path):
+def test_a_folder_is_a_finding(tmp_path):
     (tmp_path / "folder.kinefab").mkdir()
-    with pytest.raises(kinefab.KinefabError, match="SCENE_UNREADABLE"):
+    with pytest.raises(kinefab.KinefabError, match="SOURCE_IS_FOLDER"):
         read_scene(tmp_path / "folder.kinefab")
 
 

@@ -19,10 +19,8 @@ internal sealed class RobustnessTests
     private const int LongScenes = 150;
     private const int LongSteps = 200;
 
-    // Of 25,000 none stops with a motion; four did that move farther in a step than any cut followed, with megajoules, and which ones the last digits decided.
-    private const int MostStops = 1;
-
-    // Of 400 that run long, one.
+    // That have a motion: none in two steps. Of those that run long one stops, with 29 MJ beside a loop that is all but singular.
+    private const int MostStops = 0;
     private const int MostLongStops = 1;
 
     // Shorter steps that decide whether a scene that stops has a motion.

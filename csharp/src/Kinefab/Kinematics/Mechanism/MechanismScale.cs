@@ -71,6 +71,14 @@ internal static class MechanismScale
         }
     }
 
+    /// <summary>The same of a linkage, in its mechanism's lengths, and no more than 1.</summary>
+    public static double LinkShare(Linkage linkage, Pose[] poses) => Math.Min(1, LinkLength(linkage.Joints, poses, linkage.Length) / linkage.Length);
+
+    /// <summary>How far links in line turn that close a gap g: with the length l of a link by about the root of 2 g / l.</summary>
+    /// <param name="gap">In the mechanism's lengths or radians.</param>
+    /// <param name="linkShare">See <see cref="LinkShare"/>.</param>
+    public static double Turned(double gap, double linkShare) => Math.Sqrt(2 * gap / linkShare);
+
     /// <summary>Where the joint that carries a body holds it, or its own origin where none does; world.</summary>
     public static Vector3d Place(Linkage linkage, int body, Pose[] poses)
     {

@@ -67,9 +67,7 @@ public static class MobilityAnalysis
     // joint that takes its other side from the pose no longer has a trace.
     private static double Open(Mechanism mechanism, NewtonSolver newton, MechanismState state)
     {
-        newton.Motion.Start(state.Poses);
-        newton.Assemble(state);
-        double open = newton.Equations.Worst;
+        double open = newton.ErrorOf(state);
         if (mechanism.Scene.Document.Analysis?.ClosureGap is Document.ClosureGap stated)
         {
             open = Math.Max(open, Math.Max(stated.Position / mechanism.Length, stated.Angle * Math.PI / 180));

@@ -92,9 +92,9 @@ public static class MobilityCheck
         // should be, more would be rows that no constraint stands for.
         void AtMost(string pointer, string where, int? inFile, int fromJoints)
         {
-            if (inFile + moreVelocities < fromJoints)
+            if (inFile is int most && most + moreVelocities < fromJoints)
             {
-                Expect(pointer, $"The greatest number of redundant rows of {where}", inFile ?? 0, fromJoints);
+                Expect(pointer, $"The greatest number of redundant rows of {where}", most, fromJoints);
             }
         }
 

@@ -12,9 +12,8 @@ namespace Kinefab.Kinematics;
 /// </summary>
 internal static class NoisyRows
 {
-    // A narrower gap between kept and repeated rows is none of rounding; the same of an error at the start.
+    // A narrower gap between kept and repeated rows is none of rounding.
     private const double NoisyGap = 1e10;
-    private const double Noise = 1e-9;
 
     // Length of a trial step, radians or lengths.
     private const double Way = 5e-2;
@@ -30,7 +29,7 @@ internal static class NoisyRows
     private const double Damping = 1e-12;
 
     /// <summary>Whether an error, or a singular value that does not count, is more than rounding makes.</summary>
-    public static bool IsNoise(double error) => error > Noise;
+    public static bool IsNoise(double error) => error > FineClosing.LargestRounding;
 
     /// <summary>Whether there is noise, and all velocities are motions that keep the rows as well as these repeat each other.</summary>
     /// <param name="newton">Of a linkage.</param>
@@ -40,7 +39,7 @@ internal static class NoisyRows
     {
         PackedRows rows = Rows(newton, state, new double[newton.Motion.Linear.Length]);
         double worst = Largest(rows.Errors);
-        if (here.Freedoms == 0 || (here.Gap >= NoisyGap && worst <= Noise))
+        if (here.Freedoms == 0 || (here.Gap >= NoisyGap && worst <= FineClosing.LargestRounding))
         {
             return false;
         }

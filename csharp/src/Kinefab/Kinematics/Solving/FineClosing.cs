@@ -10,6 +10,9 @@ namespace Kinefab.Kinematics;
 /// </summary>
 internal sealed class FineClosing
 {
+    /// <summary>An error, or a singular value that does not count, beyond this is noise of the file, in the mechanism's lengths or radians.</summary>
+    public const double LargestRounding = 1e-9;
+
     // Up to so many freedoms singular values are taken, or of so many bodies: as many as in Python.
     private const int Few = 20;
     private const int FewBodies = 12;
@@ -31,8 +34,7 @@ internal sealed class FineClosing
     private const double Stuck = 1e4;
     private const double LargestStep = 0.3;
 
-    // Gap that is more than rounding, and times its root that closing it may turn by.
-    private const double LeastNoise = 1e-9;
+    // Times what closes links in line that closing may turn by.
     private const double Far = 4;
 
     // Of rows: most that an error is beside its linearisation, over the square of the step; lengths and angles of 1 make 1 or 2.
@@ -119,13 +121,11 @@ internal sealed class FineClosing
     private void CloseFirst(Linkage linkage, MechanismState state)
     {
         _newton.ClearDriven();
-        _newton.Motion.Start(state.Poses);
-        _ = _newton.Rows(state);
-        double gap = _newton.Equations.Worst;
+        double gap = _newton.ErrorOf(state);
         MechanismState closed = state.Clone();
         Close(closed);
-        double size = Math.Min(1, MechanismScale.LinkLength(linkage.Joints, state.Poses, linkage.Length) / linkage.Length);
-        if (gap <= LeastNoise || DenseVector.Largest(Closing) <= Far * Math.Sqrt(2 * gap / size))
+        double turned = MechanismScale.Turned(gap, MechanismScale.LinkShare(linkage, state.Poses));
+        if (gap <= LargestRounding || DenseVector.Largest(Closing) <= Far * turned)
         {
             state.CopyFrom(closed);
             return;

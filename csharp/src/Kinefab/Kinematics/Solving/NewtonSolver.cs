@@ -126,6 +126,14 @@ internal sealed class NewtonSolver
         return rows;
     }
 
+    /// <summary>The worst error of a state as it stands, in the mechanism's lengths or radians.</summary>
+    public double ErrorOf(MechanismState state)
+    {
+        Motion.Start(state.Poses);
+        Assemble(state);
+        return Equations.Worst;
+    }
+
     /// <summary>Drives nothing.</summary>
     public void ClearDriven() => DrivenCount = 0;
 

@@ -46,7 +46,7 @@ internal sealed class VelocitySpace
         Angular = (Vector3d[])newton.Motion.Angular.Clone();
 
         // A row holds a unit force or moment: what is far smaller beside a link's length is a rounding, or noise, were it the largest.
-        _size = Math.Min(1, MechanismScale.LinkLength(linkage.Joints, state.Poses, linkage.Length) / linkage.Length);
+        _size = MechanismScale.LinkShare(linkage, state.Poses);
         for (int b = 0; b < blocks.Columns.Count; b++)
         {
             AddMotions(newton, blocks.Columns[b], Rows.Of(b, blocks.BlockOf), n, _size);
@@ -83,8 +83,8 @@ internal sealed class VelocitySpace
     public static double Weight(int direction, int round) => SplitMix.Around0(((ulong)round << 32) + (ulong)direction);
 
     /// <summary>
-    /// How many singular values that count may come from what the file is open by alone. Links of length l in line that miss their joints by a
-    /// gap g close it turned by about the root of 2 g / l, and hold the velocity that they have in line by as much.
+    /// How many singular values that count may come from what the file is open by alone. Links in line that miss their joints by a gap close it
+    /// turned, and hold the velocity that they have in line by as much.
     /// </summary>
     /// <param name="gap">In the mechanism's lengths or radians.</param>
     public int HeldBy(double gap)
@@ -95,7 +95,7 @@ internal sealed class VelocitySpace
 
     /// <summary>How far links in line turn that close a gap.</summary>
     /// <param name="gap">In the mechanism's lengths or radians.</param>
-    public double Turned(double gap) => Math.Sqrt(2 * gap / _size);
+    public double Turned(double gap) => MechanismScale.Turned(gap, _size);
 
     /// <summary>A step along a mixture of all velocities, the same on every machine; zero where there are none.</summary>
     /// <param name="round">Another mixture for each.</param>

@@ -1,9 +1,7 @@
 using System;
-using System.IO;
 using System.Linq;
 using Kinefab.Document;
 using Kinefab.Dynamics;
-using Kinefab.Validation;
 using NUnit.Framework;
 
 namespace Kinefab.Tests.Dynamics.Rattle;
@@ -21,8 +19,7 @@ internal sealed class SingularPoseTests
     [TestCase("M39")]
     public void Step_FromFlatPose_TakesFewPartsAndFallsAsWithFinerSteps(string name)
     {
-        ValidScene scene = ValidScene.Load(Path.Combine(Scenario.Folder, "..", "..", "fixtures", "mechanisms", name + ".kinefab"));
-        World coarse = World.Create(scene, SolverKind.Exact);
+        World coarse = UnreachableGoalTests.Fixture(name);
         int most = 0;
         for (int i = 0; i < Steps; i++)
         {
@@ -31,7 +28,7 @@ internal sealed class SingularPoseTests
             most = Math.Max(most, (int)((coarse.SubstepWork - before) / coarse.Joints.Count));
         }
 
-        World fine = World.Create(scene, SolverKind.Exact);
+        World fine = UnreachableGoalTests.Fixture(name);
         for (int i = 0; i < Steps * 64; i++)
         {
             fine.Step(Dt / 64);
@@ -51,7 +48,7 @@ internal sealed class SingularPoseTests
     [TestCase(0.0333)]
     public void Step_OfAThirtiethFromAFlatPose_DoesNotStop(double dt)
     {
-        World world = World.Create(ValidScene.Load(Path.Combine(Scenario.Folder, "..", "..", "fixtures", "mechanisms", "M05.kinefab")), SolverKind.Exact);
+        World world = UnreachableGoalTests.Fixture("M05");
         for (int i = 0; i < 60; i++)
         {
             world.Step(dt);

@@ -55,9 +55,11 @@ internal sealed class IslandMatrix
         public readonly int Block;
     }
 
-    // n blocks that touch a body are n^2 / 2 pairs. With as many it pays to keep the body's own six unknowns in the matrix.
+    /// <summary>A hub's own unknowns.</summary>
+    public const int HubRows = 6;
+
+    // n blocks that touch a body are n^2 / 2 pairs. With as many it pays to keep the body's own unknowns in the matrix.
     private const int MostEliminated = 16;
-    private const int HubRows = 6;
 
     private readonly RowBlock[] _blocks;
     private readonly int _movingBodies;

@@ -10,8 +10,7 @@ namespace Kinefab.Dynamics.Rattle;
 internal static class HubNodes<V>
     where V : struct, ILane<V>
 {
-    // A hub's unknowns, and the numbers of its roots: of the inverse mass, and three columns of that of the inverse inertia, then the least.
-    private const int HubRows = 6;
+    // The numbers of a hub's roots: of the inverse mass, and three columns of that of the inverse inertia, then the least.
     private const int RootCount = 11;
 
     // Share of the trace of an inverse inertia under which what is left of it is rounding: of an axis of infinite moment. A row along one has as
@@ -28,9 +27,9 @@ internal static class HubNodes<V>
         {
             WriteRoots(batch, shape.Hubs[hub], RootCount * hub * w);
             int diagonal = shape.Pattern.Diagonal(shape.Blocks.Length + hub);
-            for (int i = 0; i < HubRows; i++)
+            for (int i = 0; i < IslandMatrix.HubRows; i++)
             {
-                Lane<V>.Splat(-1).Store(batch.Matrix, (diagonal + i * (HubRows + 1)) * w);
+                Lane<V>.Splat(-1).Store(batch.Matrix, (diagonal + i * (IslandMatrix.HubRows + 1)) * w);
             }
         }
 
@@ -88,7 +87,7 @@ internal static class HubNodes<V>
         int cell = link.Block * w;
         int step = (link.IsHubLater ? block.Rows : 1) * w;
         int diagonal = batch.Shape.Pattern.Diagonal(link.Node) * w;
-        for (int i = 0; i < block.Rows; i++, o += stride, row += w, diagonal += (block.Rows + 1) * w, cell += link.IsHubLater ? w : HubRows * w)
+        for (int i = 0; i < block.Rows; i++, o += stride, row += w, diagonal += (block.Rows + 1) * w, cell += link.IsHubLater ? w : IslandMatrix.HubRows * w)
         {
             LaneVector<V> linear = Lane<V>.Load(roots, r) * LinearPart(batch, block, i, link.Side, o);
             LaneVector<V> angular = LaneVector<V>.Load(batch.Angular, o);

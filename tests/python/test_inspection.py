@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import os
 from pathlib import Path
 
 import kinefab
@@ -30,6 +31,18 @@ def test_a_folder_is_a_finding(tmp_path):
     (tmp_path / "folder.kinefab").mkdir()
     with pytest.raises(kinefab.KinefabError, match="SOURCE_IS_FOLDER"):
         read_scene(tmp_path / "folder.kinefab")
+
+
+@pytest.mark.skipif(not hasattr(os, "mkfifo"), reason="this system has no pipes with a name")
+def test_a_pipe_is_a_finding_and_not_waited_for(tmp_path):
+    os.mkfifo(tmp_path / "pipe.kinefab")
+    with pytest.raises(kinefab.KinefabError, match="SCENE_UNREADABLE.*no regular file"):
+        read_scene(tmp_path / "pipe.kinefab")
+
+
+def test_a_path_that_no_system_takes_is_a_finding(tmp_path):
+    with pytest.raises(kinefab.KinefabError, match="SCENE_UNREADABLE"):
+        read_scene(tmp_path / "a\0b.kinefab")
 
 
 BODY = {"type": "Rigidbody"}

@@ -282,14 +282,8 @@ internal sealed partial class StepController
                 }
 
                 isOfEnergy |= hasArrived;
-                if (TakesNextResort(ref length, new PartLength(least, halvings)))
+                if (TakesNextResort(ref length) || TriesInHalves(start, h, ref length, new PartLength(least, halvings)))
                 {
-                    continue;
-                }
-
-                if ((_resort != Resort.Projection && !_energy.IsOfAnyLength && length.Halvings < MaxRattleHalvings) || !TakeOtherwise(start, h, length.Halvings))
-                {
-                    length.Halve();
                     continue;
                 }
             }
@@ -303,17 +297,9 @@ internal sealed partial class StepController
         return Math.Min(MaxKept, length.Fewest == least + 1 && !isOfEnergy ? least : length.Fewest);
     }
 
-    // Whether the step has had its tries, and what is left of it, or all of it, is tried otherwise.
-    private bool TakesNextResort(ref PartLength length, in PartLength whole)
+    // Whether the step has had its tries, and what is left of it is tried otherwise.
+    private bool TakesNextResort(ref PartLength length)
     {
-        if (_resort == Resort.Projection && length.Halvings == PartLength.MaxHalvings)
-        {
-            _resort = Resort.Halves;
-            ReturnToStart();
-            length = whole;
-            return true;
-        }
-
         if (_resort >= Resort.Projection || _part.Tries < _mostTries)
         {
             return false;
@@ -336,22 +322,32 @@ internal sealed partial class StepController
         return _partStart;
     }
 
-    // By the method that needs no chord, or, the shortest, standing still.
-    private bool TakeOtherwise(Snapshot start, double h, int halvings)
+    // Of a part that RATTLE does not take: false where it was made by the method that needs no chord, or, the shortest, stood still.
+    private bool TriesInHalves(Snapshot start, double h, ref PartLength length, in PartLength whole)
     {
-        if (TryProjected(h, halvings))
+        bool isProjected = _resort == Resort.Projection || _energy.IsOfAnyLength || length.Halvings >= MaxRattleHalvings;
+        if (isProjected && TryProjected(h, length.Halvings))
         {
-            return true;
-        }
-
-        if (halvings < PartLength.MaxHalvings)
-        {
-            Return(start, h);
             return false;
         }
 
+        if (length.Halvings < PartLength.MaxHalvings)
+        {
+            Return(start, h);
+            length.Halve();
+            return true;
+        }
+
+        if (_resort == Resort.Projection)
+        {
+            _resort = Resort.Halves;
+            ReturnToStart();
+            length = whole;
+            return true;
+        }
+
         Stop(start, h);
-        return true;
+        return false;
     }
 
     private bool TryPart(double h, int halvings, out bool hasArrived)

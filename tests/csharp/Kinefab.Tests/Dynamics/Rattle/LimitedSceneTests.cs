@@ -187,6 +187,28 @@ internal sealed class LimitedSceneTests
         Assert.That(scene.System.Stops, Is.Zero);
     }
 
+    /// <summary>
+    /// Grams beside tonnes at a singular pose: the last resort, which closes a pose by position, went to and fro over it by ways of the gram that close nothing,
+    /// 1e-8 m or rad open, in parts of any length. 16 to 1,464 stops, and thousands of parts before them.
+    /// </summary>
+    [TestCase(7000417, 24)]
+    [TestCase(7001504, 20)]
+    [TestCase(7001570, 100)]
+    [TestCase(7500257, 48)]
+    public void Step_LightBodyBesideHeavyOnesAtASingularPose_DoesNotStop(int seed, int steps)
+    {
+        var scene = new LimitedScene(seed);
+        var solver = new RattleSolver(scene.System, new List<InconsistentLoop>());
+        for (int i = 1; i <= steps; i++)
+        {
+            scene.Drive(i * scene.Step);
+            solver.Step(scene.Step);
+        }
+
+        Assert.That(scene.System.Stops, Is.Zero);
+        Assert.That(MechanismMeasures.Drift(scene.System), Is.LessThanOrEqualTo(MostOpen));
+    }
+
     /// <summary>A motor of finite force on a loop that cannot move, with speeds at the start that its joints forbid: 64 stops.</summary>
     [Test]
     public void Step_MotorOnALoopThatCannotMove_DoesNotStop()

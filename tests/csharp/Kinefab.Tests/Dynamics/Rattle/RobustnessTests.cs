@@ -19,10 +19,6 @@ internal sealed class RobustnessTests
     private const int LongScenes = 150;
     private const int LongSteps = 200;
 
-    // That have a motion: none in two steps. Of those that run long one stops, with 29 MJ beside a loop that is all but singular.
-    private const int MostStops = 0;
-    private const int MostLongStops = 1;
-
     // Shorter steps that decide whether a scene that stops has a motion.
     private const int Finer = 64;
     private const double MostOpen = 1e-8;
@@ -31,14 +27,14 @@ internal sealed class RobustnessTests
     private const double MostGain = 0.005;
 
     [Test]
-    public void Step_ExactInRandomScenes_FiniteClosedAndWithoutGain() => AssertTrue(0, Scenes, Steps, MostStops);
+    public void Step_ExactInRandomScenes_FiniteClosedAndWithoutGain() => AssertTrue(0, Scenes, Steps);
 
     /// <summary>KINEFAB_RANDOM_SCENES sets how many are run, KINEFAB_FIRST_SCENE the first seed.</summary>
     [Test]
     public void Step_ExactInRandomScenes_GoesOnWhereAMotionExists() =>
-        AssertTrue(LimitedSceneTests.Setting("KINEFAB_FIRST_SCENE", 0), LimitedSceneTests.Setting("KINEFAB_RANDOM_SCENES", LongScenes), LongSteps, MostLongStops);
+        AssertTrue(LimitedSceneTests.Setting("KINEFAB_FIRST_SCENE", 0), LimitedSceneTests.Setting("KINEFAB_RANDOM_SCENES", LongScenes), LongSteps);
 
-    private static void AssertTrue(int first, int count, int steps, int mostStops)
+    private static void AssertTrue(int first, int count, int steps)
     {
         var faults = new ConcurrentDictionary<int, string>();
         var stopped = new ConcurrentQueue<int>();
@@ -61,7 +57,7 @@ internal sealed class RobustnessTests
         });
         TestContext.Progress.WriteLine($"{count} scenes: {stopped.Count} stop ({string.Join(' ', stopped)}), with a motion {string.Join(' ', moving)}");
         Assert.That(faults, Is.Empty);
-        Assert.That(moving, Has.Count.LessThanOrEqualTo(mostStops), string.Join(" ", moving));
+        Assert.That(moving, Is.Empty);
     }
 
     // Until it stops.

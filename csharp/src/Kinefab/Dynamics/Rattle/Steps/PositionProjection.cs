@@ -20,6 +20,9 @@ internal sealed class PositionProjection
     // Iterations without a smaller error after which there is no place where all rows hold.
     private const int MaxIdle = 30;
 
+    // The same of a drift's end, in the metric of the masses: another comes after it.
+    private const int MaxIdleOfEnd = 2;
+
     // An error that does not fall below this share of itself in an iteration falls slowly.
     private const double SlowShare = 0.5;
 
@@ -31,6 +34,7 @@ internal sealed class PositionProjection
 
     private readonly LaneBatch<ScalarLane> _batch;
     private readonly ConjugateGradient _conjugateGradient;
+    private readonly EqualMasses _equalMasses;
     private readonly double[] _start;
 
     // Velocities and angular momenta, whose place the moves take.
@@ -44,6 +48,7 @@ internal sealed class PositionProjection
     {
         _conjugateGradient = conjugateGradient;
         _batch = batch;
+        _equalMasses = new EqualMasses(batch);
         _start = new double[7 * batch.Shape.MovingBodies];
         _momenta = new double[6 * batch.Shape.MovingBodies];
     }
@@ -101,14 +106,33 @@ internal sealed class PositionProjection
         SaveStart();
         _keepsAllowed = true;
 
-        // As far as a drift of RATTLE's: where a loop is singular, closing a gap C takes a way of the order of its root, which lifts what hangs there.
-        bool isClosed = Iterate(tolerance, ChordIteration<ScalarLane>.MostGaps, ChordIteration<ScalarLane>.MostLeftOpen);
+        bool isClosed = IterateAsADrift(tolerance, MaxIdleOfEnd) || TryWithEqualMasses(tolerance);
         _keepsAllowed = false;
         for (int body = 0; body < _batch.Shape.MovingBodies; body++)
         {
             Finish(body, isClosed);
         }
 
+        return isClosed;
+    }
+
+    // As far as a drift of RATTLE's: where a loop is singular, closing a gap C takes a way of the order of its root, which lifts what hangs there.
+    private bool IterateAsADrift(double tolerance, int maxIdle) =>
+        Iterate(tolerance, maxIdle, ChordIteration<ScalarLane>.MostGaps, ChordIteration<ScalarLane>.MostLeftOpen);
+
+    // From where it began, in the metric of equal masses.
+    private bool TryWithEqualMasses(double tolerance)
+    {
+        for (int body = 0; body < _batch.Shape.MovingBodies; body++)
+        {
+            int o = LaneBatch<ScalarLane>.Body(body, 0);
+            Array.Copy(_start, 7 * body, _batch.Bodies, o + BodyLanes.EndX, 7);
+            LaneQuaternion<ScalarLane>.Load(_batch.Bodies, o, BodyLanes.EndQ).StoreMatrix(_batch.Bodies, o, BodyLanes.R);
+        }
+
+        _equalMasses.Apply();
+        bool isClosed = IterateAsADrift(tolerance, MaxIdle);
+        _equalMasses.TakeBack();
         return isClosed;
     }
 
@@ -166,14 +190,15 @@ internal sealed class PositionProjection
         RattleStep<ScalarLane>.Rebuild(_batch);
     }
 
-    // gaps, angles: by how many tolerances anchors may be apart and angles may stay open.
-    private bool Iterate(double tolerance, double gaps = 1, double angles = 1)
+    // maxIdle: iterations without a smaller error after which it is given up; gaps, angles: by how many tolerances anchors may be apart and angles may stay
+    // open.
+    private bool Iterate(double tolerance, int maxIdle = MaxIdle, double gaps = 1, double angles = 1)
     {
         double least = double.PositiveInfinity;
         double last = double.PositiveInfinity;
         int slow = 0;
         int idle = 0;
-        for (int iteration = 0; iteration < MaxIterations && idle < MaxIdle; iteration++)
+        for (int iteration = 0; iteration < MaxIterations && idle < maxIdle; iteration++)
         {
             double error = Evaluate();
             if (iteration == 0)

@@ -20,7 +20,7 @@ internal sealed partial class StepController
 
     // Tries in a step, beside those that it begins with, after which drives are slowed down, and those with slower drives after which parts that fail are left
     // to the method that needs no chord.
-    private const int MostTries = 24;
+    private const int MostTries = 12;
     private const int MostTriesSlowed = 4;
 
     // Stops in a step after which the rest of it is not tried: the scene cannot be followed, and says so.
@@ -52,7 +52,6 @@ internal sealed partial class StepController
     private int _mostTries;
 
     private double _dt;
-    private double _elapsed;
     private double _tolerance;
 
     public StepController(LaneBatch<ScalarLane> batch)
@@ -122,7 +121,6 @@ internal sealed partial class StepController
         _part.HoldsPassedLimits = false;
         _dt = dt;
         _tolerance = tolerance;
-        _elapsed = 0;
         _dampedInStep = 0;
         _hasMoved = false;
         _hasSettled = false;
@@ -219,7 +217,6 @@ internal sealed partial class StepController
         _energy.BeginAgain();
         Return(_start, _dt);
         _hasMoved = false;
-        _elapsed = 0;
     }
 
     private bool HasRunAway => !_hasLookedForHeld && _batch.ActiveSet is { HasRunAway: true };
@@ -288,7 +285,6 @@ internal sealed partial class StepController
                 }
             }
 
-            _elapsed += h;
             _energy.BeginPart();
             length.Take(_energy.IsSmooth);
         }

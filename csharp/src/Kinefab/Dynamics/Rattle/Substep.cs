@@ -79,9 +79,6 @@ internal sealed class Substep
         _length = h;
     }
 
-    /// <summary>Whether the last part of RATTLE's failed about the moment at which a limit is reached: shorter parts help there, and nowhere else in the step.</summary>
-    public bool HasFailedAtEvent { get; private set; }
-
     /// <summary>Pieces and parts that were tried since it was set to 0.</summary>
     public int Tries { get; set; }
 
@@ -89,7 +86,6 @@ internal sealed class Substep
     public bool TryRattle(double h, double tolerance)
     {
         Tries++;
-        HasFailedAtEvent = false;
         ActiveSet<ScalarLane>? scalars = _batch.ActiveSet;
         if (scalars == null)
         {
@@ -110,7 +106,6 @@ internal sealed class Substep
             _guessLength = _length;
             if (!TryPiece(left, tolerance, out double piece))
             {
-                HasFailedAtEvent |= blows > 0;
                 return false;
             }
 
@@ -121,7 +116,6 @@ internal sealed class Substep
 
             if (!Complete(piece, h, tolerance))
             {
-                HasFailedAtEvent = true;
                 return false;
             }
 
@@ -224,7 +218,6 @@ internal sealed class Substep
         piece = left;
         if (!TryDriftFromPieceStart(left, tolerance))
         {
-            HasFailedAtEvent = _converged[0];
             return false;
         }
 
@@ -248,7 +241,6 @@ internal sealed class Substep
             return TryPiece(left, tolerance, out piece);
         }
 
-        HasFailedAtEvent = true;
         return false;
     }
 

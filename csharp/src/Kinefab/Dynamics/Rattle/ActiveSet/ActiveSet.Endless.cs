@@ -366,9 +366,6 @@ internal sealed partial class ActiveSet<V>
     /// <summary>Whether a drive has no limit of force.</summary>
     public bool HasEndless() => Array.Exists(_rows, row => row.IsEndlessDrive);
 
-    /// <summary>Whether a drive without limit of force is slowed down.</summary>
-    public bool HasSlowedDown() => Array.Exists(_rows, row => row.IsEndlessDrive && row.Pace.Slowdowns > 0);
-
     /// <summary>Whether a drive is held, see <see cref="HeldDrives"/>.</summary>
     public bool HasHeld()
     {

@@ -12,6 +12,7 @@ from cad.captures import capture, scene_differences
 from cad.described import described
 from cad.fusion import Fusion
 from cad.gears import held_by_the_world
+from command_line import run
 from kinefab.capture.channel import question
 from kinefab.capture.fusion.inside import capture_to
 from kinefab.capture.fusion.install import install
@@ -190,6 +191,18 @@ def test_a_release_without_configurations_is_read(tmp_path):
     record = [{k: v for k, v in own.items() if k != "configurationTopTable"} for own in asked]
     found = capture("fusion", record, tmp_path)
     assert "configuration" not in json.loads(found.path.read_text("utf-8"))["meta"]
+
+
+def test_an_add_in_goes_into_no_folder_that_is_not_there(tmp_path):
+    """A mistyped path was made a folder, into which Fusion does not look."""
+    typo, file = tmp_path / "AddIn", tmp_path / "file"
+    file.write_text("")
+    for folder, detail in ((typo, f"there is no folder {typo}"), (file, "Not a directory")):
+        done = run("capture", "fusion", "--install", folder)
+        assert done.returncode == 1 and "Traceback" not in done.stderr
+        said = "".join(done.stderr.split())
+        assert "errorTARGET_UNWRITABLE" in said and "".join(detail.split()) in said, done.stderr
+    assert list(tmp_path.iterdir()) == [file]
 
 
 def test_the_add_in_runs_in_a_python_of_its_own(tmp_path):

@@ -137,14 +137,14 @@ def capture_commands() -> typer.Typer:
     @group.command(help=HELP_FUSION)
     def fusion(
         install: Path = typer.Option(
-            ..., "--install", help="Folder for add-ins to write ours into.", show_default=False
+            ..., "--install", help="Folder for add-ins, which is there, to write ours into.", show_default=False
         ),
         output: Optional[Path] = typer.Option(None, "--output", "-o", hidden=True, callback=_no_output),
         as_json: bool = AS_JSON,
     ) -> None:
-        from ..capture.fusion.install import install as run
+        from ..capture.fusion.install import NAME, install as run
 
-        with unwritable_as_finding(install, as_json):
+        with unwritable_as_finding(install / NAME, as_json):
             made = run(install)
         remark(f"{made}: the add-in was written.")
         tell(Report(), made, as_json, True)

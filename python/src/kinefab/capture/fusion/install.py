@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import errno
 import json
+import os
 import shutil
 from pathlib import Path
 
@@ -72,7 +74,13 @@ MANIFEST = {
 
 
 def install(folder: Path) -> Path:
-    """Write the add-in into a folder for add-ins; the add-in's own folder.  Raises OSError."""
+    """Write the add-in into a folder for add-ins; the add-in's own folder.  Raises OSError.
+
+    A folder that is not there is not made: Fusion would not look into it.
+    """
+    if not folder.is_dir():
+        fault = errno.ENOTDIR if folder.exists() else errno.ENOENT
+        raise OSError(fault, os.strerror(fault), str(folder))
     made = folder / NAME
     library = made / "lib" / "kinefab"
     for module in MODULES:

@@ -18,8 +18,8 @@ internal static class SimulateCommand
     internal static Command Create()
     {
         var scenes = new SceneArguments();
-        Option<double?> seconds = TypedOptions.Positive("--seconds", $"How long to simulate; at most {TypedOptions.MostSteps} steps. Required, but for --replay.");
-        Option<double?> step = TypedOptions.Positive("--step", "Time step in seconds; default: the scene's fixedTimestep.");
+        Option<double?> seconds = TypedOptions.Positive("--seconds", $"How long to simulate, rounded to whole steps: one at least, and at most {TypedOptions.MostSteps}. Required, but for --replay.");
+        Option<double?> step = TypedOptions.Positive("--step", "Time step in seconds, no longer than --seconds; default: the scene's fixedTimestep.");
         Option<SolverKind> solver = TypedOptions.Solver();
         Option<string?> output = TypedOptions.Trajectory();
         var drives = new Option<string[]>("--drive")
@@ -96,7 +96,10 @@ internal static class SimulateCommand
             if (loaded.Scene is null)
                 return new SceneOutcome(loaded.ExitCode, loaded.Report);
             double dt = Step ?? loaded.Scene.Document.Physics.FixedTimestep;
-            double count = Replayed?.Steps ?? Math.Max(1, Math.Round(Seconds / dt));
+            // As floats, which Unity's numbers are: 0.1 s hold a step of 0.1f, which is a little longer.
+            if (Replayed is null && (float)dt > (float)Seconds)
+                return SceneOutcome.Refused(loaded.Report, string.Create(CultureInfo.InvariantCulture, $"--seconds {Seconds} is less than one step of {dt} s. Give more seconds or a shorter --step."));
+            double count = Replayed?.Steps ?? Math.Round(Seconds / dt);
             if (count > TypedOptions.MostSteps)
                 return SceneOutcome.Refused(loaded.Report, string.Create(CultureInfo.InvariantCulture, $"--seconds {Seconds} at {dt} s a step makes {count} steps; at most {TypedOptions.MostSteps} are run. Give fewer seconds or a longer --step."));
             if (!double.IsFinite(count * dt))

@@ -188,6 +188,24 @@ public sealed class SimulateCommandTests
         Assert.That(findings, Does.Contain("at most 1000000 are run"));
     }
 
+    [TestCase("--seconds 1 is less than one step of 20 s", "--seconds", "1", "--step", "20")]
+    [TestCase("--seconds 1 is less than one step of 1.2 s", "--seconds", "1", "--step", "1.2")]
+    [TestCase("--seconds 0.001 is less than one step of 0.02 s", "--seconds", "0.001")]
+    public void Simulate_StepLongerThanTheRun_Exits2InsteadOfRunningOn(string fault, params string[] options)
+    {
+        (int exit, string data, string findings) = CommandLineTests.Run(["simulate", Scene, .. options]);
+
+        Assert.That((exit, data, findings.TrimEnd()), Is.EqualTo((2, "", $"{fault}. Give more seconds or a shorter --step.")));
+    }
+
+    [Test]
+    public void Simulate_StepAsLongAsTheRunInFloats_IsOneStep()
+    {
+        (int exit, string data, string findings) = CommandLineTests.Run("simulate", Scene, "--seconds", "0.1", "--step", "0.10000000149011612");
+
+        Assert.That((exit, findings), Is.EqualTo((0, "")), data);
+    }
+
     // 10 bodies, 1 + 7 * 10 + 41 numbers a pose: without a trajectory the run is as long as any other.
     [Test]
     public void Simulate_TrajectoryThatMemoryDoesNotHold_Exits2BeforeTheRun()

@@ -189,7 +189,10 @@ public sealed class KinefabImporterTests
 
     [TestCase("{\"format\": \"other\", \"version\": \"1.0\", \"gameObjects\": []}", "FORMAT_UNKNOWN")]
     [TestCase("{\"format\": \"kinefab.scene\", \"version\": \"2.0\", \"gameObjects\": []}", "VERSION_UNSUPPORTED")]
-    [TestCase("PK\u0003\u0004 not a scene at all", "JSON_SYNTAX")]
+    [TestCase("<robot name=\"arm\"/>", "FORMAT_MISSING")]
+    [TestCase("\n#usda 1.0", "FORMAT_MISSING")]
+    [TestCase("x{\"format\": \"kinefab.scene\", \"version\": \"1.0\", \"gameObjects\": []}", "JSON_SYNTAX")]
+    [TestCase("PK\u0003\u0004 not a scene at all", "FORMAT_MISSING")]
     [TestCase("", "SCENE_EMPTY")]
     public void Import_OfSomethingElse_IsASentence(string text, string code)
     {

@@ -20,6 +20,8 @@ LONG = 309
 MAX_DEPTH = 64
 """Deepest nesting, as in C#."""
 
+_OTHER_FORMAT = re.compile(rb"[ \t\r\n]*(?!true|false|null)[!#-,.:-Z\\^-z|}~]")
+"""<robot>, #usda, ISO-10303-21, PK of a zip: what begins neither a value of JSON nor a comment."""
 _HALF = re.compile(r"\\u[dD][89a-fA-F]")
 _STRING = r'"(?:[^"\\]|\\.)*"?'
 _TOKEN = re.compile(rf"{_STRING}|[\[\]{{}},:]|[^\s\[\]{{}},:\"]+", re.DOTALL)
@@ -75,6 +77,8 @@ def _text(content: bytes, found: Findings) -> str:
         data = data.removeprefix(b"\xef\xbb\xbf")
         if not data.strip(b" \t\r\n"):
             found.add("SCENE_EMPTY")
+        elif _OTHER_FORMAT.match(data) and b'"gameObjects"' not in data:
+            found.refuse_for("FORMAT_MISSING")
         try:
             text = data.decode("utf-8")
         except UnicodeDecodeError as error:

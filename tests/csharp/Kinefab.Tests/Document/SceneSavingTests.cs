@@ -50,6 +50,16 @@ public class SceneSavingTests
         Assert.That(Bytes(again.Document!), Is.EqualTo(Bytes(document)));
     }
 
+    // The system names the temporary file beside the scene, which nobody asked for.
+    [Test]
+    public void Save_IntoAFolderThatIsNotThere_NamesItAndMakesNone()
+    {
+        using var folder = new Folder();
+        string absent = folder.Of("absent");
+        Assert.That(() => SceneFile.Save(new SceneDocument(), Path.Combine(absent, "a.kinefab")), Throws.InstanceOf<DirectoryNotFoundException>().With.Message.EqualTo($"There is no folder {absent} to write a.kinefab into."));
+        Assert.That(Directory.Exists(absent), Is.False);
+    }
+
     [TestCaseSource(typeof(SceneWithNull), nameof(SceneWithNull.All))]
     public void Save_WithANullInIt_SaysWhereAndWritesNothing(string place, string expected, SceneDocument document)
     {

@@ -16,6 +16,7 @@ public static partial class SceneFile
     /// <param name="document">What is written is not validated; fields at their defaults are left out.</param>
     /// <param name="path">In a folder that exists.</param>
     /// <exception cref="ArgumentException">Something is null where nothing may be (the message says where), a number is not finite, an <c>ExtrasJson</c> no object, a string no Unicode, or a binary file would have more than 4 GiB; nothing was written.</exception>
+    /// <exception cref="DirectoryNotFoundException">There is no such folder; none is made.</exception>
     /// <exception cref="IOException">The file cannot be written; the old one stands as it was.</exception>
     /// <exception cref="UnauthorizedAccessException">As above.</exception>
     public static void Save(SceneDocument document, string path)
@@ -29,6 +30,8 @@ public static partial class SceneFile
         string name = Path.GetFileName(path);
         document = document with { Buffers = SavedBuffers.Named(document.Buffers, name) };
         Content content = Of(document);
+        if (!Directory.Exists(folder))
+            throw new DirectoryNotFoundException($"There is no folder {folder} to write {name} into.");
         SavedBuffers.Write(content.Buffers, folder);
         WholeFile.Write(path, content.Write);
         SavedBuffers.RemoveOthers(content.Buffers, folder, name);

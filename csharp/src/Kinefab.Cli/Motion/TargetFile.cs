@@ -13,6 +13,11 @@ internal static class TargetFile
     /// <summary>Writes what the content gives; the report has an error when it could not be written.</summary>
     internal static Report Write(string path, Action<Stream> content) => Attempt(path, content, isKept: true);
 
+    /// <summary>The file that is written under a path: behind a link, where it leads, so that the link stays one.</summary>
+    /// <exception cref="IOException">Links lead round in a circle.</exception>
+    internal static string Behind(string path) =>
+        new FileInfo(path).LinkTarget is null ? path : File.ResolveLinkTarget(path, returnFinalTarget: true)!.FullName;
+
     private static Report Attempt(string path, Action<Stream> content, bool isKept)
     {
         if (Directory.Exists(path))
@@ -20,8 +25,7 @@ internal static class TargetFile
         string temporary = path;
         try
         {
-            // Behind a link, where it leads: the link stays one.
-            string target = new FileInfo(path).LinkTarget is null ? path : File.ResolveLinkTarget(path, returnFinalTarget: true)!.FullName;
+            string target = Behind(path);
             temporary = Beside(target);
             var file = new FileStream(temporary, FileMode.CreateNew, FileAccess.Write);
             try

@@ -14,6 +14,9 @@ namespace Kinefab.Cli;
 /// <summary>The files of a call, and how it is told what came of each: as text, as JSON, and in a JUnit report beside either.</summary>
 internal sealed class SceneBatch(string command, IReadOnlyList<string> files, bool isJson, string? junit)
 {
+    // As the file systems compare that these systems come with. Where a disk tells letter cases apart after all, too much is refused, and nothing lost.
+    private static readonly StringComparer Paths = OperatingSystem.IsWindows() || OperatingSystem.IsMacOS() ? StringComparer.OrdinalIgnoreCase : StringComparer.Ordinal;
+
     /// <summary>Whether each file's findings and outcome are printed as JSON, so that a command prints nothing itself.</summary>
     internal bool IsJson => isJson;
 
@@ -27,18 +30,18 @@ internal sealed class SceneBatch(string command, IReadOnlyList<string> files, bo
 
     /// <summary>Why an option cannot write to a path; null: it can.</summary>
     internal string? FaultOfTarget(string option, string? path) =>
-        !string.IsNullOrEmpty(path) && files.Any(file => file is not ("" or LoadedScene.StandardInput) && Path.GetFullPath(file) == Path.GetFullPath(path))
+        !string.IsNullOrEmpty(path) && files.Any(file => file is not ("" or LoadedScene.StandardInput) && Paths.Equals(Real(file), Real(path)))
             ? $"{option} {path}: it is one of the scene files, and would be lost."
             : null;
 
     /// <summary>Why the files that options name cannot all be written, the JUnit report among them; null: they can.</summary>
     internal string? FaultOfSame(params (string Option, string? Path)[] targets)
     {
-        var seen = new Dictionary<string, string>(StringComparer.Ordinal);
+        var seen = new Dictionary<string, string>(Paths);
         foreach ((string option, string? path) in targets.Append(("--junit", junit)))
         {
-            if (!string.IsNullOrEmpty(path) && !seen.TryAdd(Path.GetFullPath(path), option))
-                return $"{option} {path}: it is {seen[Path.GetFullPath(path)]}'s file too, and one of the two would be lost.";
+            if (!string.IsNullOrEmpty(path) && !seen.TryAdd(Real(path), option))
+                return $"{option} {path}: it is {seen[Real(path)]}'s file too, and one of the two would be lost.";
         }
 
         return null;
@@ -66,6 +69,19 @@ internal sealed class SceneBatch(string command, IReadOnlyList<string> files, bo
         int exit = outcomes.Max(one => one.Outcome.ExitCode);
         Report written = junit is null ? Report.Empty : TargetFile.Write(junit, stream => JUnitFile.Write(stream, command, outcomes));
         return written.HasErrors ? Math.Max(exit, Fail(written)) : exit;
+    }
+
+    // What is written through a link is the file behind it.
+    private static string Real(string path)
+    {
+        try
+        {
+            return Path.GetFullPath(TargetFile.Behind(path));
+        }
+        catch (IOException)
+        {
+            return Path.GetFullPath(path);
+        }
     }
 
     private SceneOutcome RunText(string file, Func<string, SceneOutcome> each)

@@ -136,6 +136,19 @@ public sealed class ManyFilesTests
         Assert.That(File.ReadAllText(scene), Is.EqualTo(File.ReadAllText(Valid)));
     }
 
+    // A file is written where a link leads; the scene was lost by its other name.
+    [TestCase("validate", "--junit")]
+    [TestCase("simulate", "--output", "--seconds", "0.1")]
+    public void Target_ThatIsALinkToASceneOfTheCall_IsRefused(string command, string option, params string[] more)
+    {
+        string scene = Path.Combine(Folder(), "scene.kinefab"), link = Path.Combine(Path.GetDirectoryName(scene)!, "link.json");
+        File.Copy(Valid, scene);
+        File.CreateSymbolicLink(link, "scene.kinefab");
+        (int exit, _, string findings) = CommandLineTests.Run([command, scene, option, link, .. more]);
+        Assert.That((exit, findings.TrimEnd()), Is.EqualTo((2, $"{option} {link}: it is one of the scene files, and would be lost.")));
+        Assert.That(File.ReadAllText(scene), Is.EqualTo(File.ReadAllText(Valid)));
+    }
+
     // One file was listed forty times, until the system had enough of the links.
     [Test]
     public void Patterns_OverLinksThatLeadBack_ListEachFileOnce()

@@ -29,6 +29,10 @@ internal sealed class FiniteMobility
     private readonly TrialSteps _here;
     private readonly SecondOrder? _left;
 
+    // Where nothing is left of mixtures, of the velocities in which bodies stand still: what is obstructed takes a motion beside it back along,
+    // as in a linkage that cannot move but for a rod that spins.
+    private readonly TrialSteps? _atRest;
+
     /// <summary>Of a linkage all of whose freedoms are one block's, at a closed state.</summary>
     public FiniteMobility(Linkage linkage, NewtonSolver newton, FreedomBlocks blocks, FineClosing closing, VelocitySpace here, MechanismState state, CancellationToken cancellation)
     {
@@ -43,8 +47,13 @@ internal sealed class FiniteMobility
         AtGeneralPose = here.Freedoms;
         for (int walk = 0; walk <= MaxOtherWalks && (walk == 0 || Freedoms < Math.Max(_here.Motions.Count, AtGeneralPose)); walk++)
         {
-            VelocitySpace there = Elsewhere(state.Clone(), walk, walk == 0 || Freedoms < _here.Motions.Count);
-            AtGeneralPose = Math.Min(AtGeneralPose, there.Freedoms);
+            AtGeneralPose = Math.Min(AtGeneralPose, Elsewhere(state.Clone(), walk, walk == 0 || Freedoms < _here.Motions.Count));
+        }
+
+        if (Freedoms == 0 && here.Freedoms > 1 && _closing.IsFew)
+        {
+            _atRest = new TrialSteps(newton, closing, here.AtRest(), state, cancellation);
+            Freedoms = _atRest.MixturesMove() ? _atRest.Motions.Count : Math.Min(1, _atRest.Motions.Count);
         }
     }
 
@@ -55,10 +64,17 @@ internal sealed class FiniteMobility
     public int AtGeneralPose { get; private set; }
 
     /// <summary>The velocities at the state that lead into the finite motions.</summary>
-    public IReadOnlyList<double[]> Motions => Freedoms < _here.Motions.Count ? _here.LargestBranch() : _here.Motions;
+    public IReadOnlyList<double[]> Motions
+    {
+        get
+        {
+            TrialSteps trials = _atRest ?? _here;
+            return Freedoms < trials.Motions.Count ? trials.LargestBranch() : trials.Motions;
+        }
+    }
 
-    // The velocities where a walk leads, whose motions are counted too.
-    private VelocitySpace Elsewhere(MechanismState state, int walk, bool isCounted)
+    // Freedoms of the velocities where a walk leads, whose motions are counted too.
+    private int Elsewhere(MechanismState state, int walk, bool isCounted)
     {
         for (int i = 0; i < WalkSteps; i++)
         {
@@ -72,7 +88,14 @@ internal sealed class FiniteMobility
             var space = new VelocitySpace(_linkage, _newton, _blocks, state);
             if (!isCounted)
             {
-                return space;
+                return space.Freedoms;
+            }
+
+            if (_closing.HoldsByAllRows(state, space.Rows))
+            {
+                int all = _newton.Motion.Linear.Length - space.Rows.Count;
+                Freedoms = Math.Max(Freedoms, all);
+                return all;
             }
 
             SecondOrder? left = Left(space, state);
@@ -81,7 +104,7 @@ internal sealed class FiniteMobility
             if (isSure || further == MostFurther)
             {
                 Freedoms = Math.Max(Freedoms, there.Motions.Count);
-                return space;
+                return space.Freedoms;
             }
 
             Walk(state, space, left, FurtherRounds + further);

@@ -27,6 +27,10 @@ internal sealed class FineClosing
     private const double ShortestWay = 0.01;
     private const double LeastObstructing = 1e-4;
 
+    // Share of the square of the least singular value that a state may miss its rows by to have one of the mechanism's near it: Newton's method
+    // converges from half of it, over the rows' curvature (Kantorovich 1948).
+    private const double SureShare = 0.01;
+
     // Error that is rounding. Times what a state is closed to up to which another came back onto the joints beyond doubt, and beyond which
     // it got stuck: what is closed to a rounding of the file here may be closed to many there.
     private const double Rounding = 1e-14;
@@ -97,6 +101,25 @@ internal sealed class FineClosing
 
     /// <summary>Whether the freedoms are few enough for singular values.</summary>
     public bool IsFew { get; }
+
+    /// <summary>
+    /// Whether no row repeats others at a state, beyond doubt, so that each velocity there is a motion. Beside a singular pose rows are
+    /// independent by little, less than the gap in which a rank is put asks for; of a pose that is left where a velocity is obstructed both the
+    /// error and the square of the least singular value are the closing's.
+    /// </summary>
+    /// <param name="state">Closed as well as it can be.</param>
+    /// <param name="rows">Its rows.</param>
+    public bool HoldsByAllRows(MechanismState state, PackedRows rows)
+    {
+        int freedoms = Closing.Length;
+        if (!IsFew || rows.Count == 0 || rows.Count >= freedoms)
+        {
+            return false;
+        }
+
+        double least = new SingularValues(rows.Matrix(freedoms)).Values[rows.Count - 1];
+        return Math.Max(_goal, _newton.ErrorOf(state)) <= SureShare * least * least;
+    }
 
     /// <summary>Brings a state onto the joints as near as it goes; whether that may be a pose of them.</summary>
     public bool Close(MechanismState state)

@@ -16,6 +16,9 @@ internal sealed class VelocitySpace
 
     private const double NoiseOverGap = 10;
 
+    // Share of a velocity up to which a body does not move in it.
+    private const double Moves = 1e-6;
+
     // A gap between singular values that is wider than this share of the widest might have been the widest in other units.
     private const double AlsoWide = 0.01;
 
@@ -115,6 +118,45 @@ internal sealed class VelocitySpace
         }
 
         return step;
+    }
+
+    /// <summary>Velocities, of length 1, that are the only ones in which some bodies do not move against what they hang on.</summary>
+    public List<double[]> AtRest()
+    {
+        var found = new List<double[]>();
+        int[] order = _linkage.Tree.Order;
+        for (int first = 0; first < order.Length; first++)
+        {
+            List<double[]> left = _basis;
+            for (int k = 0; k < order.Length; k++)
+            {
+                int body = order[(first + k) % order.Length];
+                SingularValues own = OwnFreedoms(body, left);
+                int moving = own.Rank(Moves);
+                left = moving < left.Count ? Mixtures(left, own, moving) : left;
+            }
+
+            if (left.Count == 1 && !found.Exists(other => Math.Abs(DenseVector.Dot(other, left[0])) > 1 - Moves))
+            {
+                found.Add(left[0]);
+            }
+        }
+
+        return found;
+    }
+
+    private SingularValues OwnFreedoms(int body, List<double[]> velocities)
+    {
+        var own = new double[_linkage.Tree.Freedoms[body], velocities.Count];
+        for (int i = 0; i < own.GetLength(0); i++)
+        {
+            for (int m = 0; m < velocities.Count; m++)
+            {
+                own[i, m] = velocities[m][_firsts[body] + i];
+            }
+        }
+
+        return new SingularValues(own);
     }
 
     /// <summary>For each freedom the velocity at the mechanism's origin, in its lengths.</summary>

@@ -17,6 +17,7 @@ from ..equations.solve import FEW, Solver
 from ..equations.system import State
 from .branches import NOISY_GAP, held_there, largest_branch, mixtures_move
 from .first_order import BlockFreedom, block_freedoms
+from .independent import independent_velocities
 from .noise import moves_up_to_noise, noise_of
 from .probes import OPEN, STEP, TELLING, WHOLE, floor_of, kept_of, left_of, random_direction, trial
 from .second_order import second_order
@@ -238,6 +239,9 @@ def _beyond_doubt(solver: Solver, part: int, freedom: BlockFreedom, state: State
             state, freedom = there, freedoms[part]
         if not freedom.mobility:
             return freedom.basis
+        all_move = independent_velocities(solver, freedom, state, float(floor[part]))
+        if all_move is not None:
+            return all_move
         for step in PROBES:
             ways, share, open_ = kept_of(solver, part, freedom, state, step, floor)
             if open_ <= min(BESIDE * floor[part], (TELLING * step) ** 4):

@@ -101,7 +101,7 @@ internal sealed class BodyTwists
     // by no more than that may stand still.
     private static BodyTwists[] Others(Mechanism mechanism, NewtonSolver newton, Pose[] poses, IndependentLinkages parts, LoopMobility[] loops, double open)
     {
-        double turned = loops.Length == 0 ? 0 : loops.Max(loop => loop.Here.Turned(open));
+        double turned = loops.Length == 0 ? 0 : loops.Max(loop => loop.Here.Turned(Math.Max(open, loop.Here.Dropped)));
         BodyTwists Of(Converter<LoopMobility, VelocitySpace> space, double sameDirection, double least) =>
             new(mechanism.Linkage, newton, poses, parts, loops, Array.ConvertAll(loops, space), sameDirection, least);
         return new[]

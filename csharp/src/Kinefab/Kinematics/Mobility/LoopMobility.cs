@@ -31,9 +31,9 @@ internal sealed class LoopMobility
         Rank = newton.Motion.Linear.Length - Here.Freedoms;
         Motions = Here.Basis;
         (Finite, AtGeneralPose) = (Here.Freedoms, Here.Freedoms);
+        closing.Follow(Here.Dropped);
         if (!NoisyRows.Keep(newton, Here, state))
         {
-            closing.Follow(Here.Dropped);
             var finite = new FiniteMobility(part.Linkage, newton, blocks, closing, Here, state, cancellation);
             (Finite, AtGeneralPose) = (finite.Freedoms, finite.AtGeneralPose);
             Motions = Finite < FirstOrder ? finite.Motions : Motions;
@@ -57,15 +57,20 @@ internal sealed class LoopMobility
     /// <summary>Freedoms of the velocities at poses in general position.</summary>
     public int AtGeneralPose { get; }
 
+    /// <summary>Whether the file is open by more than a rounding, or rows that should repeat each other are off by more.</summary>
+    /// <param name="gap">What the file is open by, in the mechanism's lengths or radians.</param>
+    public bool IsNoisy(double gap) => NoisyRows.IsNoise(Math.Max(gap, Here.Dropped));
+
     /// <summary>
     /// How many freedoms more or fewer may be meant: those that little holds, and of a file that is open by more than a rounding those at a
-    /// dead centre, which rows that are off by as much obstruct, hold for good or let go.
+    /// dead centre, which rows that are off by as much obstruct, hold for good or let go. More motions than velocities there are as much in doubt
+    /// as fewer.
     /// </summary>
     /// <param name="gap">What the file is open by, in the mechanism's lengths or radians.</param>
     public int InDoubt(double gap)
     {
-        bool isNoisy = NoisyRows.IsNoise(Math.Max(gap, Here.Dropped));
-        return Math.Max(Here.InDoubt, isNoisy ? Here.HeldBy(gap) + FirstOrder - Finite : 0);
+        int more = Here.HeldBy(gap) + FirstOrder - Finite;
+        return Math.Max(Here.InDoubt, IsNoisy(gap) ? Math.Max(more, Finite - FirstOrder) : 0);
     }
 
     /// <summary>

@@ -32,6 +32,7 @@ public static class MobilityAnalysis
         int[] redundant = RowsThatTieNothing(mechanism);
         double gap = double.PositiveInfinity;
         int inDoubt = 0;
+        bool isNoisy = false;
         int general = Array.FindAll(blocks.BlockOf, block => block < 0).Length;
         for (int b = 0; b < loops.Length; b++)
         {
@@ -41,6 +42,7 @@ public static class MobilityAnalysis
             loops[b].CountRedundant(redundant);
             gap = Math.Min(gap, loops[b].Here.Gap);
             inDoubt += loops[b].InDoubt(open);
+            isNoisy |= loops[b].IsNoisy(open);
             general += loops[b].AtGeneralPose;
         }
 
@@ -60,7 +62,7 @@ public static class MobilityAnalysis
         List<BodyMobility> bodies = BodyTwists.Of(mechanism, newton, state.Poses, parts, loops, open, cancellation);
         bodies.Sort((a, b) => a.GameObject.CompareTo(b.GameObject));
         int rows = 6 * mechanism.Tree.Order.Length - firstOrder + redundantRows;
-        return new MobilityReport(mobility, firstOrder, general, rows, redundantRows, gap, inDoubt, islands, bodies, Named(mechanism, redundant), idle);
+        return new MobilityReport(mobility, firstOrder, general, rows, redundantRows, gap, inDoubt, isNoisy, islands, bodies, Named(mechanism, redundant), idle);
     }
 
     // What the exported pose is open by: its joints as they stand, and what the exporter says that it missed the source's by, of which a Unity

@@ -117,7 +117,7 @@ public sealed class IdleFreedom
 public sealed class MobilityReport
 {
     internal MobilityReport(
-        int mobility, int firstOrder, int atGeneralPose, int rows, int redundant, double gap, int inDoubt, IReadOnlyList<IslandMobility> islands, IReadOnlyList<BodyMobility> bodies, IReadOnlyList<RedundantRows> joints,
+        int mobility, int firstOrder, int atGeneralPose, int rows, int redundant, double gap, int inDoubt, bool isNoisy, IReadOnlyList<IslandMobility> islands, IReadOnlyList<BodyMobility> bodies, IReadOnlyList<RedundantRows> joints,
         IReadOnlyList<IdleFreedom> idle)
     {
         Mobility = mobility;
@@ -127,6 +127,7 @@ public sealed class MobilityReport
         Redundant = redundant;
         Gap = gap;
         InDoubt = inDoubt;
+        IsNoisy = isNoisy;
         Islands = islands;
         Bodies = bodies;
         Joints = joints;
@@ -156,6 +157,9 @@ public sealed class MobilityReport
 
     /// <summary>How many more freedoms, or fewer, rows would leave that hold a velocity by little, were they counted otherwise.</summary>
     internal int InDoubt { get; }
+
+    /// <summary>Whether the file is open by more than a rounding, or rows that should repeat each other are off by more.</summary>
+    internal bool IsNoisy { get; }
 
     /// <summary>By their first GameObject.</summary>
     public IReadOnlyList<IslandMobility> Islands { get; }

@@ -95,7 +95,7 @@ def test_cut_off_at_every_byte_it_is_refused(tmp_path):
     content = exported(BOX, tmp_path, "binary").read_bytes()
     path = tmp_path / "cut.kinefab"
     for length in range(len(content)):
-        codes = ("CONTAINER_INVALID",) if length >= 4 else ("SCENE_EMPTY", "JSON_SYNTAX")
+        codes = ("CONTAINER_INVALID",) if length >= 4 else ("SCENE_EMPTY", "FORMAT_MISSING")
         demand_refused(path, content[:length], *codes)
     demand_refused(path, content + b"\0", "CONTAINER_INVALID")
 

@@ -92,7 +92,7 @@ public sealed class KinefabImporterEditorTests
     // Whatever is wrong with a file or a project: one sentence with what to do, in the inspector and in the import log.
     [TestCase("newer", "Error: VERSION_UNSUPPORTED", "2.0")]
     [TestCase("other", "Error: FORMAT_UNKNOWN", "kinefab.scene")]
-    [TestCase("zip", "Error: JSON_SYNTAX", "line 1")]
+    [TestCase("zip", "Error: FORMAT_MISSING", "kinefab export")]
     [TestCase("empty", "Error: SCENE_EMPTY", "")]
     [TestCase("buffer", "Error: BUFFER_MISSING", "lever")]
     [TestCase("shader", "Warning: UNITY_SHADER_MISSING", "Install the package")]

@@ -29,10 +29,15 @@ internal sealed class SceneBatch(string command, IReadOnlyList<string> files, bo
     }
 
     /// <summary>Why an option cannot write to a path; null: it can.</summary>
-    internal string? FaultOfTarget(string option, string? path) =>
-        !string.IsNullOrEmpty(path) && files.Any(file => file is not ("" or LoadedScene.StandardInput) && Paths.Equals(Real(file), Real(path)))
+    internal string? FaultOfTarget(string option, string? path)
+    {
+        if (string.IsNullOrEmpty(path))
+            return null;
+        string target = Real(path);
+        return files.Any(file => file is not ("" or LoadedScene.StandardInput) && Paths.Equals(Real(file), target))
             ? $"{option} {path}: it is one of the scene files, and would be lost."
             : null;
+    }
 
     /// <summary>Why the files that options name cannot all be written, the JUnit report among them; null: they can.</summary>
     internal string? FaultOfSame(params (string Option, string? Path)[] targets)
@@ -40,8 +45,11 @@ internal sealed class SceneBatch(string command, IReadOnlyList<string> files, bo
         var seen = new Dictionary<string, string>(Paths);
         foreach ((string option, string? path) in targets.Append(("--junit", junit)))
         {
-            if (!string.IsNullOrEmpty(path) && !seen.TryAdd(Real(path), option))
-                return $"{option} {path}: it is {seen[Real(path)]}'s file too, and one of the two would be lost.";
+            if (string.IsNullOrEmpty(path))
+                continue;
+            string target = Real(path);
+            if (!seen.TryAdd(target, option))
+                return $"{option} {path}: it is {seen[target]}'s file too, and one of the two would be lost.";
         }
 
         return null;

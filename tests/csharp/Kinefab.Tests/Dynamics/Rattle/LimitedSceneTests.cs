@@ -174,18 +174,7 @@ internal sealed class LimitedSceneTests
     [TestCase(1305)]
     [TestCase(41022)]
     [TestCase(7001560)]
-    public void Step_WhereShorterStepsGoOn_DoesNotStop(int seed)
-    {
-        var scene = new LimitedScene(seed);
-        var solver = new RattleSolver(scene.System, new List<InconsistentLoop>());
-        for (int i = 1; i <= Steps; i++)
-        {
-            scene.Drive(i * scene.Step);
-            solver.Step(scene.Step);
-        }
-
-        Assert.That(scene.System.Stops, Is.Zero);
-    }
+    public void Step_WhereShorterStepsGoOn_DoesNotStop(int seed) => Assert.That(Run(seed, Steps).Stops, Is.Zero);
 
     /// <summary>
     /// Grams beside tonnes at a singular pose: the last resort, which closes a pose by position, went to and fro over it by ways of the gram that close nothing,
@@ -197,16 +186,9 @@ internal sealed class LimitedSceneTests
     [TestCase(7500257, 48)]
     public void Step_LightBodyBesideHeavyOnesAtASingularPose_DoesNotStop(int seed, int steps)
     {
-        var scene = new LimitedScene(seed);
-        var solver = new RattleSolver(scene.System, new List<InconsistentLoop>());
-        for (int i = 1; i <= steps; i++)
-        {
-            scene.Drive(i * scene.Step);
-            solver.Step(scene.Step);
-        }
-
-        Assert.That(scene.System.Stops, Is.Zero);
-        Assert.That(MechanismMeasures.Drift(scene.System), Is.LessThanOrEqualTo(MostOpen));
+        MultibodySystem m = Run(seed, steps);
+        Assert.That(m.Stops, Is.Zero);
+        Assert.That(MechanismMeasures.Drift(m), Is.LessThanOrEqualTo(MostOpen));
     }
 
     /// <summary>A motor of finite force on a loop that cannot move, with speeds at the start that its joints forbid: 64 stops.</summary>
@@ -227,21 +209,21 @@ internal sealed class LimitedSceneTests
     [Test]
     public void Step_Twice_GivesTheSameBits([Range(0, 10)] int seed)
     {
-        ulong first = Bits(seed);
-        Assert.That(Bits(seed), Is.EqualTo(first));
+        ulong first = MechanismMeasures.Bits(Run(seed, Steps));
+        Assert.That(MechanismMeasures.Bits(Run(seed, Steps)), Is.EqualTo(first));
+    }
 
-        static ulong Bits(int seed)
+    private static MultibodySystem Run(int seed, int steps)
+    {
+        var scene = new LimitedScene(seed);
+        var solver = new RattleSolver(scene.System, new List<InconsistentLoop>());
+        for (int i = 1; i <= steps; i++)
         {
-            var scene = new LimitedScene(seed);
-            var solver = new RattleSolver(scene.System, new List<InconsistentLoop>());
-            for (int i = 1; i <= Steps; i++)
-            {
-                scene.Drive(i * scene.Step);
-                solver.Step(scene.Step);
-            }
-
-            return MechanismMeasures.Bits(scene.System);
+            scene.Drive(i * scene.Step);
+            solver.Step(scene.Step);
         }
+
+        return scene.System;
     }
 
     // The farthest that a hard limit is passed, m or rad.

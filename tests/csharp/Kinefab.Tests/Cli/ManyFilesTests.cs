@@ -208,9 +208,19 @@ public sealed class ManyFilesTests
 
     private static string[] Lines(string text) => text.ReplaceLineEndings("\n").TrimEnd().Split('\n');
 
+    private static string Folders => Path.Combine(TestContext.CurrentContext.WorkDirectory, "many");
+
+    // Links that lead back, left there, keep whatever searches the repository next without following each place once, as docfx does.
+    [OneTimeTearDown]
+    public void RemoveFolders()
+    {
+        if (Directory.Exists(Folders))
+            Directory.Delete(Folders, true);
+    }
+
     private static string Folder()
     {
-        string folder = Path.Combine(TestContext.CurrentContext.WorkDirectory, "many", Guid.NewGuid().ToString("N"));
+        string folder = Path.Combine(Folders, Guid.NewGuid().ToString("N"));
         Directory.CreateDirectory(folder);
         return folder;
     }

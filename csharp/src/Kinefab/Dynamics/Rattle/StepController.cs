@@ -384,12 +384,6 @@ internal sealed partial class StepController
             isChanged = true;
         }
 
-        if (!hasArrived && !_part.IsEager && _batch.ActiveSet != null)
-        {
-            _part.IsEager = true;
-            isChanged = true;
-        }
-
         return isChanged;
     }
 

@@ -44,6 +44,9 @@ internal sealed class Substep
     private double _part;
     private double _guessLength;
 
+    // Whether a drift from the piece's start arrived without the guess and not with it.
+    private bool _isGuessMisleading;
+
     public Substep(LaneBatch<ScalarLane> batch, ConjugateGradient conjugateGradient)
     {
         _batch = batch;
@@ -89,7 +92,7 @@ internal sealed class Substep
         ActiveSet<ScalarLane>? scalars = _batch.ActiveSet;
         if (scalars == null)
         {
-            _pieceStart.Save(_batch);
+            BeginPiece();
             return TryDriftFromPieceStart(h, tolerance) && Complete(h, h, tolerance);
         }
 
@@ -101,10 +104,10 @@ internal sealed class Substep
         {
             scalars.LocatesEvents = blows < MaxBlows;
             scalars.BeginPiece(left);
-            _pieceStart.Save(_batch);
+            BeginPiece();
             Array.Copy(_batch.VelocityImpulses, _guess, _guess.Length);
             _guessLength = _length;
-            if (!TryPiece(left, tolerance, out double piece))
+            if (!TryPiece(left, tolerance, out double piece) && !TryPieceEagerly(left, tolerance, out piece))
             {
                 return false;
             }
@@ -130,11 +133,17 @@ internal sealed class Substep
         }
     }
 
+    private void BeginPiece()
+    {
+        _pieceStart.Save(_batch);
+        _isGuessMisleading = false;
+    }
+
     // A guess can be worse than none: a damper's impulse, or those from before a blow, belong to another motion. And a loop that can be closed is
     // closed here: a gap that its angles were left with would be closed by a later part, at the speed of the gap over that part's length.
     private bool TryDriftFromPieceStart(double h, double tolerance)
     {
-        if (TryDrift(h, tolerance) && !IsLeftOpen(tolerance))
+        if (!_isGuessMisleading && TryDrift(h, tolerance) && !IsLeftOpen(tolerance))
         {
             return true;
         }
@@ -142,6 +151,7 @@ internal sealed class Substep
         ReturnToPieceStartWithoutGuess();
         if (TryDrift(h, tolerance) && !IsLeftOpen(tolerance))
         {
+            _isGuessMisleading = true;
             return true;
         }
 
@@ -244,14 +254,31 @@ internal sealed class Substep
         return false;
     }
 
+    private bool TryPieceEagerly(double left, double tolerance, out double piece)
+    {
+        piece = left;
+        if (IsEager)
+        {
+            return false;
+        }
+
+        Tries++;
+        IsEager = true;
+        ReturnToPieceStart(left);
+        return TryPiece(left, tolerance, out piece);
+    }
+
     // The drift as long as leads to the first limit on its way: the least C of those that are apart, by Chandrupatla's rule, which takes the inverse
     // parabola through the last three lengths where it may be trusted and halves the bracket elsewhere. Source: Chandrupatla 1997.
     private bool TryReach(double longest, double passed, in ScalarRow first, double tolerance, out double piece, out bool isPassedAtOnce)
     {
         isPassedAtOnce = false;
         double aim = (MostShort - MostPassed) / 2 * tolerance;
-        double before = first.IsActive ? Math.Max(first.StartError, Math.Max(first.StartSpeed * longest, tolerance)) : -passed;
-        var bracket = new RootBracket(0, before, longest, passed - aim, first.ReachedAt(longest));
+
+        // C of a limit that the joint stands at and leaves is 0 at the start as well: over the length it falls about evenly, from the speed.
+        bool isLeft = first.IsActive && first.StartError <= MostShort * tolerance && first.StartSpeed > 0;
+        double before = !first.IsActive ? -passed : isLeft ? first.StartSpeed : Math.Max(first.StartError, Math.Max(first.StartSpeed * longest, tolerance));
+        var bracket = new RootBracket(0, before, longest, (passed - aim) / (isLeft ? longest : 1), first.ReachedAt(longest));
         for (int trial = 0; trial < MaxTrials; trial++)
         {
             piece = bracket.Next();
@@ -268,7 +295,7 @@ internal sealed class Substep
                 return bracket.Early > 0 || !_batch.ActiveSet.HasLeft();
             }
 
-            bracket.Add(piece, nearest - aim);
+            bracket.Add(piece, (nearest - aim) / (isLeft ? piece : 1));
             if (bracket.Early == 0 && trial >= MostLate && first.IsActive && !first.IsOnOtherSide)
             {
                 isPassedAtOnce = true;

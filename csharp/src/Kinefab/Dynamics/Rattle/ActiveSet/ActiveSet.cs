@@ -250,7 +250,7 @@ internal sealed partial class ActiveSet<V>
             bool isThere = scalar.IsActive && scalar.Kind != RowKind.None && (isAll || scalar.State == RowState.Free);
 
             // Not 0 times a row that is not there: what a failed attempt left of it may be no number.
-            AssembledRows<V>.Write(_batch, scalar.Block, scalar.BlockRow, isThere ? scalar.Built : default, 1);
+            AssembledRows<V>.Write(_batch, scalar.Block, scalar.BlockRow, isThere ? scalar.Built : default);
         }
     }
 

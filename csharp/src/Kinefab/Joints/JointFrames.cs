@@ -6,8 +6,7 @@ namespace Kinefab.Joints;
 /// <summary>A joint's two frames in the world and frame 1 in frame 0.</summary>
 internal struct JointFrames
 {
-    /// <summary>Origins in the world.</summary>
-    public Vector3d P0;
+    /// <summary>Origin of frame 1 in the world.</summary>
     public Vector3d P1;
 
     /// <summary>Rotations in the world; Q1 may have been negated.</summary>
@@ -36,7 +35,6 @@ internal struct JointFrames
             q1 = Negate(q1);
         }
 
-        f.P0 = f0.Position;
         f.P1 = f1.Position;
         f.Q0 = q0;
         f.Q1 = q1;

@@ -106,9 +106,6 @@ internal ref partial struct JsonCursor
         throw new ReadingEndedException();
     }
 
-    /// <summary>Steps over the current value.</summary>
-    internal void Skip() => reader.Skip();
-
     /// <summary>Reports that the current value is of another type, and steps over it.</summary>
     internal void Mismatch(string expected)
     {

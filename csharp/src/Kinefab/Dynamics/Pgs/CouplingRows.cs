@@ -22,7 +22,6 @@ internal sealed class CouplingRows
         public double Constant;
         public double UnbiasedConstant;
         public double InverseResponse;
-        public double Impulse;
         public int First;
         public int Parts;
     }
@@ -94,7 +93,6 @@ internal sealed class CouplingRows
             }
 
             double delta = row.Constant - velocity * row.InverseResponse;
-            row.Impulse += delta;
             for (int p = row.First; p < row.First + row.Parts; p++)
             {
                 ref Part part = ref _parts[p];

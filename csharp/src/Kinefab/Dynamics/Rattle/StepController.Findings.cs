@@ -14,7 +14,7 @@ internal sealed partial class StepController
     {
         return _worst < 0
             ? new UnsolvedStep { Body = island.Bodies[0], Troubles = _troubles }
-            : new UnsolvedStep { Body = island.Bodies[0], Troubles = _troubles, Joint = JointOf(island, _worst), Error = _worstError, IsAngular = island.IsAngular[_worst] };
+            : new UnsolvedStep { Body = island.Bodies[0], Troubles = _troubles, Joint = island.JointOf(_worst), Error = _worstError, IsAngular = island.IsAngular[_worst] };
     }
 
     /// <summary>The joints whose limits stand passed and cannot be closed are added to a list.</summary>
@@ -73,34 +73,17 @@ internal sealed partial class StepController
         }
     }
 
-    /// <summary>Whether the last step began by closing its start pose.</summary>
-    public bool HasClosed { get; private set; }
+    /// <inheritdoc cref="StepStart.HasClosed"/>
+    public bool HasClosed => _stepStart.HasClosed;
 
-    /// <summary>Whether the last step began by taking speeds off that the joints forbid.</summary>
-    public bool HasForbiddenSpeed => _forbidden >= 0;
+    /// <inheritdoc cref="StepStart.HasForbiddenSpeed"/>
+    public bool HasForbiddenSpeed => _stepStart.HasForbiddenSpeed;
 
-    /// <summary>The largest of them.</summary>
-    /// <param name="island">The island that was stepped; the batch may be of another of its shape.</param>
-    public ForbiddenSpeed Forbidden(Island island) =>
-        new() { Body = island.Bodies[0], Joint = JointOf(island, _forbidden), Speed = _forbiddenSpeed, IsAngular = island.IsAngular[_forbidden] };
+    /// <inheritdoc cref="StepStart.Forbidden"/>
+    public ForbiddenSpeed Forbidden(Island island) => _stepStart.Forbidden(island);
 
-    /// <summary>What was moved then.</summary>
-    /// <param name="island">The island that was stepped; the batch may be of another of its shape.</param>
-    public ClosedPose Closed(Island island) => new()
-    {
-        Body = island.Bodies[0],
-        Joint = JointOf(island, _closure.Worst),
-        Error = _closure.WorstError,
-        IsAngular = island.IsAngular[_closure.Worst],
-        Distance = _closure.Distance,
-        Angle = _closure.Angle,
-    };
-
-    private static JointModel? JointOf(Island island, int row)
-    {
-        int n = Array.FindLastIndex(island.Pattern.Rows, first => first <= row);
-        return island.Blocks[n].Joint ?? island.Blocks[n].Coupling!.Coordinates[^1].Joint;
-    }
+    /// <inheritdoc cref="StepStart.Closed"/>
+    public ClosedPose Closed(Island island) => _stepStart.Closed(island);
 
     // Of the first part that no method could take.
     private void MeasureWorstResidual()
@@ -123,6 +106,6 @@ internal sealed partial class StepController
     private void FindTroubles()
     {
         _troubles = _batch.ActiveSet?.Troubles(ActiveSet<ScalarLane>.Reach * _tolerance) ?? StepTroubles.None;
-        _troubles |= _closure.IsOpen() ? StepTroubles.Open : StepTroubles.None;
+        _troubles |= _stepStart.IsOpen() ? StepTroubles.Open : StepTroubles.None;
     }
 }

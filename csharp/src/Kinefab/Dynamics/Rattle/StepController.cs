@@ -32,19 +32,15 @@ internal sealed partial class StepController
     private readonly LaneBatch<ScalarLane> _batch;
     private readonly ConjugateGradient _conjugateGradient;
     private readonly Substep _part;
-    private readonly PositionProjection _closure;
+    private readonly StepStart _stepStart;
     private readonly Snapshot _start;
     private readonly Snapshot _partStart;
     private readonly StepEnergy _energy;
     private int _dampedInStep;
-    private bool _isMoved;
-    private bool _hasSettled;
     private bool _hasLookedForHeld;
     private bool _hasMoved;
     private int _worst;
     private double _worstError;
-    private int _forbidden = -1;
-    private double _forbiddenSpeed;
     private StepTroubles _troubles;
 
     // What is tried beside halves of the parts that fail, and the tries after which it is more.
@@ -59,7 +55,7 @@ internal sealed partial class StepController
         _batch = batch;
         _conjugateGradient = new ConjugateGradient(batch);
         _part = new Substep(batch, _conjugateGradient);
-        _closure = new PositionProjection(batch, _conjugateGradient);
+        _stepStart = new StepStart(batch, _conjugateGradient);
         _start = new Snapshot(batch);
         _partStart = new Snapshot(batch);
         _energy = new StepEnergy(batch, MaxKept);
@@ -87,7 +83,7 @@ internal sealed partial class StepController
         }
 
         Begin(dt, tolerance, cut, hasFailed);
-        CloseStartPose(isMoved);
+        _stepStart.Close(tolerance, isMoved);
         if (hasFailed || HasClosed || HasForbiddenSpeed)
         {
             ProjectStartSpeeds();
@@ -123,31 +119,19 @@ internal sealed partial class StepController
         _tolerance = tolerance;
         _dampedInStep = 0;
         _hasMoved = false;
-        _hasSettled = false;
         _hasLookedForHeld = false;
         _energy.Begin(dt, tolerance, history.Energy, history.IsSingular);
         _batch.ActiveSet?.BeginPace(dt);
     }
 
-    // Of a pose that the last step did not leave so: closes it, and finds the speeds that it forbids.
-    private void CloseStartPose(bool isMoved)
-    {
-        _isMoved = isMoved || (_batch.ActiveSet != null && _batch.ActiveSet.IsNewlyPassed());
-        HasClosed = _isMoved && _closure.TryClose(_tolerance);
-        _forbidden = _isMoved && !_batch.Shape.IsInconsistent ? InitialVelocityProjection.Find(_batch, out _forbiddenSpeed) : -1;
-    }
-
-    // Takes off the speeds that the joints forbid.
     private void ProjectStartSpeeds()
     {
-        _hasSettled = true;
-        if (_isMoved && _closure.IsOpen())
+        if (_stepStart.IsLeftOpen())
         {
             _energy.Ignore();
         }
 
-        RattleStep<ScalarLane>.Rebuild(_batch);
-        InitialVelocityProjection.Apply(_batch, _conjugateGradient);
+        _stepStart.ProjectSpeeds();
     }
 
     // Halvings that the step has up front, by how far bodies turn and how stiff tension makes them; drives that rest on ask for none.
@@ -241,8 +225,7 @@ internal sealed partial class StepController
     {
         Array.Clear(_batch.Work.TotalImpulses, 0, _batch.Work.TotalImpulses.Length);
         _part.Tries = 1;
-        HasClosed = false;
-        _forbidden = -1;
+        _stepStart.Forget();
         DampedSteps += verdict.Stops;
         _worst = verdict.Worst;
         _worstError = verdict.Error;
@@ -377,7 +360,7 @@ internal sealed partial class StepController
         }
 
         bool isChanged = LooksForHeld(start, h);
-        if (length.IsFirst && !_hasSettled)
+        if (length.IsFirst && !_stepStart.HasProjectedSpeeds)
         {
             ProjectStartSpeeds();
             SaveStart();

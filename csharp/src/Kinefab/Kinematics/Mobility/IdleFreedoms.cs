@@ -78,7 +78,7 @@ internal sealed class IdleFreedoms
         }
 
         var idle = new IdleFreedoms(mechanism, parts, loops, closed);
-        idle.CountFreedomsOfBlocks(cancellation);
+        idle.CountFreedomsOfBlocks();
         for (int node = 1; node < idle._graph.Members.Count; node++)
         {
             idle.AddSingle(node, cancellation);
@@ -191,7 +191,7 @@ internal sealed class IdleFreedoms
     private int Left(int edge) => _left[_cuts.BlockOf[edge]];
 
     // What each block of joints can do in itself. Couplings close no loop: what they tie may hold several blocks, and what hangs on them.
-    private void CountFreedomsOfBlocks(CancellationToken cancellation)
+    private void CountFreedomsOfBlocks()
     {
         var edgesOf = new SortedDictionary<int, List<int>>();
         for (int edge = 0; edge < _cuts.BlockOf.Length; edge++)
@@ -223,7 +223,7 @@ internal sealed class IdleFreedoms
                 KnowAllAsOne(nodes);
             }
 
-            int count = isTied ? FreedomsOf(nodes, _loops[_graph.Blocks[edges[0]]], cancellation) : int.MaxValue; // of a block that nothing ties, any number
+            int count = isTied ? FreedomsOf(nodes, _loops[_graph.Blocks[edges[0]]]) : int.MaxValue; // of a block that nothing ties, any number
             _left.Add(block, count < 2 ? 0 : count);
         }
     }
@@ -246,7 +246,7 @@ internal sealed class IdleFreedoms
         }
     }
 
-    private int FreedomsOf(SortedSet<int> nodes, LoopMobility loop, CancellationToken cancellation)
+    private int FreedomsOf(SortedSet<int> nodes, LoopMobility loop)
     {
         int bodies = 0;
         foreach (int node in nodes)

@@ -25,12 +25,14 @@ internal readonly struct LaneVector<V>
         Lane<V>.Load(array, index, skip + 1),
         Lane<V>.Load(array, index, skip + 2));
 
-    /// <summary>Columns from the given one on of each lane's record: see <see cref="ILane{TSelf}.Gather"/>.</summary>
+    /// <summary>For each lane the vector with its number: see <see cref="ILane{TSelf}.Gather"/>.</summary>
+    /// <param name="from">Vectors, three numbers each.</param>
+    /// <param name="records">For each lane the number of its vector.</param>
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
-    public static LaneVector<V> Gather(ReadOnlySpan<double> from, ReadOnlySpan<int> records, int stride, int column) => new(
-        Lane<V>.Gather(from, records, stride, column),
-        Lane<V>.Gather(from, records, stride, column + 1),
-        Lane<V>.Gather(from, records, stride, column + 2));
+    public static LaneVector<V> Gather(ReadOnlySpan<double> from, ReadOnlySpan<int> records) => new(
+        Lane<V>.Gather(from, records, 3, 0),
+        Lane<V>.Gather(from, records, 3, 1),
+        Lane<V>.Gather(from, records, 3, 2));
 
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
     public void Store(double[] array, int index, int skip = 0)

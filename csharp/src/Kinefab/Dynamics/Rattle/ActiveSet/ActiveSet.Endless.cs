@@ -5,16 +5,10 @@ using Kinefab.Numerics;
 
 namespace Kinefab.Dynamics.Rattle;
 
-/// <summary>How much a drive without limit of force may need.</summary>
+/// <content>Drives without limit of force: how fast they go from step to step, and which of them rest or are held.</content>
 internal sealed partial class ActiveSet<V>
+    where V : struct, ILane<V>
 {
-    // By how much the levers of a loop, and gears, may multiply what reaches a drive. More makes the answer of a drive that stalls so large that steps fail.
-    private const double MostByLevers = 30;
-    private const double MostByGears = 1e3;
-
-    // By how much one joint's angles, whose axes are not at right angles, may work against each other.
-    private const double MostBySkew = 4;
-
     // How often the speed of one that the mechanism does not follow is halved in a step.
     private const int Slowdown = 2;
 
@@ -33,120 +27,6 @@ internal sealed partial class ActiveSet<V>
 
     // Of the speed that it was asked for, less is a drive that the mechanism does not follow.
     private const double LeastFollowed = 0.5;
-
-    // What is reckoned of speeds and loads, this many times.
-    private const double Margin = 4;
-
-    /// <summary>
-    /// The most impulse that a drive can need in a part of a step, whatever way its island takes: to start, stop or turn round all bodies as one, which is
-    /// a matter of the whole step, by itself or as other drives ask for, and to hold out against springs, other drives, loads and what turns. Of a chain no
-    /// more reaches it; levers and gears may multiply it. In loops what the bodies have beside the speeds that are asked for does not count: where a dead
-    /// point throws them about, each step would throw them farther.
-    /// </summary>
-    /// <param name="drive">Its row.</param>
-    /// <param name="h">Length of the part, s.</param>
-    private double MostNeeded(in ScalarRow drive, double h)
-    {
-        const double mostAcceleration = 1e3;
-        bool isAngular = drive.Built.Has(RowFlags.Angular);
-        double speed = Math.Abs(drive.AskedSpeed(h));
-        double inertia = MostInertia(drive, out double reach), load = 0, weights = 0;
-        Vector3d anchor = Anchor(drive);
-        FindOthers(drive, out double turning, out double moving);
-        double fastestTurn = turning + (isAngular ? speed : 0), fastest = moving + (isAngular ? 0 : speed);
-        for (int body = 0; body < _batch.Shape.MovingBodies; body++)
-        {
-            int o = LaneRecords<V>.Body(body, 0);
-            double own = Inverse(_batch.Bodies[o + BodyLanes.InverseMass]);
-            double weight = isAngular ? own * Length(o + BodyLanes.EndX, anchor) : own;
-            weights += weight;
-            load += weight * Length(o + BodyLanes.Acceleration) + (isAngular ? Length(o + BodyLanes.Torque) : 0);
-            fastestTurn = _batch.Shape.HasJointLoops ? fastestTurn : Math.Max(fastestTurn, Impulses<V>.AngularVelocity(_batch, body).Length);
-            fastest = _batch.Shape.HasJointLoops ? fastest : Math.Max(fastest, Length(o + BodyLanes.V));
-        }
-
-        // Towards the axes about which it turns, and as it slides while it turns.
-        load += weights * fastestTurn * (fastestTurn * reach + 2 * fastest) + (isAngular ? inertia * fastestTurn * fastestTurn : 0);
-        double others = isAngular ? inertia * turning + weights * moving : inertia * (moving + turning * reach);
-        double start = Math.Max(0, Margin * (inertia * (speed + Math.Abs(drive.StartSpeed)) + others) - Math.Abs(_batch.Work.TotalImpulses[drive.Index]));
-        double force = Margin * (load + Levers * Opposed(drive, h, speed, reach)) + inertia * mostAcceleration * Math.Sqrt(drive.Pace.Share);
-        return ByGears(reach) * (isAngular && AreAskew(drive) ? MostBySkew : 1) * (start + force * h);
-    }
-
-    // Whether the joint has other angular drives without limit of force: its angles do not turn about axes at right angles, and what one asks for the others
-    // undo.
-    private bool AreAskew(in ScalarRow drive)
-    {
-        bool areAskew = false;
-        int first = _scalars.First(drive.Block);
-        for (int i = first; i < first + _batch.Shape.Blocks[drive.Block].ScalarCount; i++)
-        {
-            areAskew |= _rows[i].IsEndlessDrive && _rows[i].Built.Has(RowFlags.Angular) && _rows[i].Index != drive.Index;
-        }
-
-        return areAskew;
-    }
-
-    // How fast the other drives without limit of force and the kinematic bodies turn the island, rad/s, and move it, m/s: as they are asked to and as they do.
-    private void FindOthers(in ScalarRow drive, out double turning, out double moving)
-    {
-        turning = 0;
-        moving = 0;
-        for (int i = 0; i < _rows.Length; i++)
-        {
-            ref ScalarRow other = ref _rows[i];
-            double speed = other.IsEndlessDrive && !other.Drive.IsHeld && other.Index != drive.Index ? Math.Abs(other.Built.VelocityTarget) + Math.Abs(StartSpeed(other)) : 0;
-            turning += other.Built.Has(RowFlags.Angular) ? speed : 0;
-            moving += other.Built.Has(RowFlags.Angular) ? 0 : speed;
-        }
-
-        for (int body = _batch.Shape.MovingBodies; body < _batch.Shape.Bodies.Length; body++)
-        {
-            int o = LaneRecords<V>.Body(body, 0);
-            turning += _batch.Shape.IsStatic[body] ? 0 : Length(o + BodyLanes.W);
-            moving += _batch.Shape.IsStatic[body] ? 0 : Length(o + BodyLanes.V);
-        }
-    }
-
-    private double Levers => _batch.Shape.HasLoops ? MostByLevers : 1;
-
-    // The most that a mechanism away from its dead points is to a drive that moves it, kg or kg m^2, but for gears: all bodies as one. reach: how far the
-    // farthest is from the drive's joint, m.
-    private double MostInertia(in ScalarRow drive, out double reach)
-    {
-        Vector3d anchor = Anchor(drive);
-        double mass = 0, moments = 0;
-        reach = 0;
-        for (int body = 0; body < _batch.Shape.MovingBodies; body++)
-        {
-            int o = LaneRecords<V>.Body(body, 0);
-            double own = Inverse(_batch.Bodies[o + BodyLanes.InverseMass]), arm = Length(o + BodyLanes.EndX, anchor);
-            reach = Math.Max(reach, arm);
-            mass += own;
-            moments += own * arm * arm + Inverse(_batch.Bodies[o + BodyLanes.LeastInverseInertia]);
-        }
-
-        double levers = Levers;
-        return drive.Built.Has(RowFlags.Angular) ? moments : levers > 1 && reach > 0 ? mass + levers * moments / (reach * reach) : mass;
-    }
-
-    // How far from a drive's joint the farthest body is, m.
-    private double FarthestBody(in ScalarRow drive)
-    {
-        Vector3d anchor = Anchor(drive);
-        double reach = 0;
-        for (int body = 0; body < _batch.Shape.MovingBodies; body++)
-        {
-            reach = Math.Max(reach, Length(LaneRecords<V>.Body(body, BodyLanes.EndX), anchor));
-        }
-
-        return reach;
-    }
-
-    private Vector3d Anchor(in ScalarRow drive) =>
-        LaneTransfer<V>.ReadPose(_batch, _batch.Shape.Blocks[drive.Block].Bodies[0], 0).Point(_batch.Models[drive.Block]!.Frame0.Position);
-
-    private double Length(int number, Vector3d from = default) => (LaneTransfer<V>.ReadVector(_batch.Bodies, number) - from).Length;
 
     /// <summary>
     /// Before a step: a drive to a goal far away does not begin with the whole speed that its gap asks for, lest what lies beyond the mechanism's reach
@@ -171,7 +51,7 @@ internal sealed partial class ActiveSet<V>
                 continue;
             }
 
-            double most = Math.Max(scalar.Built.Has(RowFlags.Angular) ? MostTurn : MostWay * FarthestBody(scalar), DrivePace.SlowerBy * dt * Math.Abs(pace.StartSpeed));
+            double most = Math.Max(scalar.Built.Has(RowFlags.Angular) ? MostTurn : MostWay * _needs.FarthestBody(scalar), DrivePace.SlowerBy * dt * Math.Abs(pace.StartSpeed));
             double error = Math.Abs(scalar.Built.GeometricError);
             while (most > 0 && pace.Slowdowns < DrivePace.MostSlowdowns && error - error / scalar.Growth(dt) > most)
             {
@@ -227,7 +107,7 @@ internal sealed partial class ActiveSet<V>
             bool comes = speed > Math.Max(0, pace.StartSpeed * pace.Side) + little;
             double growth = GrowthAtADeadPoint(ref scalar);
             bool stands = scalar.Drive.IsStalled && Math.Abs(speed) <= little
-                && Math.Abs(speed) * dt <= LeastWay * (scalar.Built.Has(RowFlags.Angular) ? 1 : FarthestBody(scalar));
+                && Math.Abs(speed) * dt <= LeastWay * (scalar.Built.Has(RowFlags.Angular) ? 1 : _needs.FarthestBody(scalar));
             int before = pace.Slowdowns;
             bool rests = pace.Rests;
             pace.FollowedSlowdowns = isFollowed && !rests ? before : pace.FollowedSlowdowns;
@@ -269,13 +149,9 @@ internal sealed partial class ActiveSet<V>
             drive.Pace.Inertia = unit[drive.Index];
         }
 
-        double most = ByGears(0) * MostInertia(drive, out _) * (IsCoupledAmongOthers(drive) ? MostBySkew : 1);
+        double most = _needs.MostPivot(drive);
         return before > 0 && drive.Pace.Inertia > most ? drive.Pace.Inertia / before : 1;
     }
-
-    // Whether a coupling holds an angle of a drive's joint that turns about other axes too: of coupled angles, whose axes are not at right angles, one may turn
-    // much where the other turns little.
-    private bool IsCoupledAmongOthers(in ScalarRow drive) => _batch.Models[drive.Block] is D6Joint { IsCoupledAmongOthers: true };
 
     // A drive that gave all it has and what stopped it hold each other by far more than they have to. As a guess that would stay, since rows that agree ask
     // for no other; and shorter steps, which it made needful, no longer are.
@@ -404,52 +280,4 @@ internal sealed partial class ActiveSet<V>
 
     /// <summary>Whether a drive that opposes others holds one that stalls.</summary>
     public bool HasHeldStalled() => Array.Exists(_rows, row => row.Drive.IsHeld && row.Drive.IsStalled);
-
-    // By how much gears may multiply an inertia, by the square of their ratios, or a load, by less. reach: of angles, by which they compare with ways, m.
-    private double ByGears(double reach)
-    {
-        double product = 1;
-        foreach (CoordinateCoupling? coupling in _batch.Couplings)
-        {
-            double least = double.PositiveInfinity, most = 0;
-            for (int i = 0; coupling != null && i < coupling.Factors.Length; i++)
-            {
-                double factor = Math.Abs(coupling.Factors[i]);
-                factor /= coupling.Coordinates[i].IsAngle && reach > 0 ? reach : 1;
-                least = factor > 0 ? Math.Min(least, factor) : least;
-                most = Math.Max(most, factor);
-            }
-
-            product *= most > least ? most / least * (most / least) : 1;
-        }
-
-        return Math.Min(product, MostByGears);
-    }
-
-    // What springs and the drives whose force has a limit may hold against a drive, N or N m of its own.
-    private double Opposed(in ScalarRow drive, double h, double speed, double reach)
-    {
-        double sum = 0;
-        for (int i = 0; i < _rows.Length; i++)
-        {
-            ref ScalarRow other = ref _rows[i];
-            bool isSpring = other.Built.Has(RowFlags.Spring);
-            if (!other.IsActive || other.Index == drive.Index || !(isSpring || (other.Built.Has(RowFlags.Drive) && !other.IsEndless)))
-            {
-                continue;
-            }
-
-            double gain = other.Built.Has(RowFlags.AccelerationSpring) ? Inverse(Response(other)) : 1;
-            double way = Math.Abs(other.Built.GeometricError) + Margin * h * speed;
-            double force = isSpring
-                ? gain * (other.Built.Stiffness * way + other.Built.Damping * (Math.Abs(other.StartSpeed) + Margin * speed))
-                : Math.Max(other.Built.Maximum, -other.Built.Minimum);
-            bool turns = other.Built.Has(RowFlags.Angular), isAngular = drive.Built.Has(RowFlags.Angular);
-            sum += turns == isAngular || reach == 0 ? force : turns ? force / reach : force * reach;
-        }
-
-        return sum;
-    }
-
-    private static double Inverse(double number) => number > 0 ? 1 / number : 0;
 }

@@ -26,6 +26,7 @@ internal sealed partial class ActiveSet<V>
     private readonly LaneRecords<V> _batch;
     private readonly ScalarRows _scalars;
     private readonly ScalarRow[] _rows;
+    private readonly DriveNeed<V> _needs;
 
     // In the drift's search for states: the sets that were seen, and whether all rows out of place move at once.
     private readonly ulong[] _seen = new ulong[MaxPasses];
@@ -43,6 +44,7 @@ internal sealed partial class ActiveSet<V>
         _batch = batch;
         _scalars = scalars;
         _rows = scalars.Rows;
+        _needs = new DriveNeed<V>(batch, scalars);
     }
 
     /// <summary>Whether limits that a drift has to reach first are left to Substep, or held from the start of the step on.</summary>
@@ -101,7 +103,7 @@ internal sealed partial class ActiveSet<V>
 
             if (scalar.AsksForSpeed && scalar.IsEndless)
             {
-                scalar.BoundForce(MostNeeded(scalar, h));
+                scalar.BoundForce(_needs.MostImpulse(scalar, h));
             }
 
             if (scalar.Kind == RowKind.Spring)
@@ -250,7 +252,7 @@ internal sealed partial class ActiveSet<V>
             bool isThere = scalar.IsActive && scalar.Kind != RowKind.None && (isAll || scalar.State == RowState.Free);
 
             // Not 0 times a row that is not there: what a failed attempt left of it may be no number.
-            AssembledRows<V>.Write(_batch, scalar.Block, scalar.BlockRow, isThere ? scalar.Built : default, 1);
+            AssembledRows<V>.Write(_batch, scalar.Block, scalar.BlockRow, isThere ? scalar.Built : default);
         }
     }
 

@@ -153,6 +153,13 @@ internal sealed class Island
         return ((IsInconsistent || Hubs.Length > 0) && Array.Exists(plain, block => block.HasAxisRow)) || Array.Exists(plain, block => block.IsAssembled || block.Rows == 0) ? null : new Island(Bodies, MovingBodies, plain, _inverseMasses, _inverseInertias, this) { Loops = Loops };
     }
 
+    /// <summary>The joint of a row, in the vectors' order; of a coupling's row that of the coordinate that is driven.</summary>
+    public JointModel JointOf(int row)
+    {
+        int n = Array.FindLastIndex(Pattern.Rows, first => first <= row);
+        return Blocks[n].Joint ?? Blocks[n].Coupling!.Coordinates[^1].Joint;
+    }
+
     /// <summary>Whether the other island is of the same build, so that both can share lanes.</summary>
     public bool HasShapeOf(Island other)
     {

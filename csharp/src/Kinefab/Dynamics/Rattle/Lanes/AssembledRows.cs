@@ -75,16 +75,16 @@ internal static class AssembledRows<V>
             }
             else if (IsLoneAngle(block, rows[i]))
             {
-                Write(batch, n, block.BilateralCount - 1, rows[i], 1);
+                Write(batch, n, block.BilateralCount - 1, rows[i]);
             }
         }
     }
 
-    /// <summary>Writes a row's J times a factor.</summary>
-    public static void Write(LaneRecords<V> batch, int n, int row, in ConstraintRow from, double factor)
+    /// <summary>Writes a row's J.</summary>
+    public static void Write(LaneRecords<V> batch, int n, int row, in ConstraintRow from)
     {
-        Put(batch, batch.Row(n, row, 0), from.Linear0, from.Angular0, factor);
-        Put(batch, batch.Row(n, row, 1), from.Linear1, from.Angular1, -factor);
+        Put(batch, batch.Row(n, row, 0), from.Linear0, from.Angular0, 1);
+        Put(batch, batch.Row(n, row, 1), from.Linear1, from.Angular1, -1);
     }
 
     /// <summary>Notes the angles that were reached: those of limits, springs and couplings are counted on from the last finished part of a step.</summary>

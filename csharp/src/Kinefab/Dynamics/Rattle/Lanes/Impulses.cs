@@ -230,31 +230,6 @@ internal static class Impulses<V>
         ApplySide(batch, bodies[1], row.Linear1, row.Angular1, -impulse);
     }
 
-    /// <summary>The linear impulse that a block's rows give one of its bodies, on the only lane.</summary>
-    public static Vector3d Force(LaneRecords<V> batch, int n, int side, double[] impulses)
-    {
-        RowBlock block = batch.Shape.Blocks[n];
-        int row = batch.Shape.Pattern.Rows[n];
-        Vector3d force = Vector3d.Zero;
-        int i = 0;
-        if (block.LinearMask == 7)
-        {
-            force = new Vector3d(impulses[row], impulses[row + 1], impulses[row + 2]) * (side == 0 ? 1 : -1);
-            i = 3;
-        }
-
-        for (; i < block.Rows; i++)
-        {
-            if (block.Classes[i] == RowClass.General)
-            {
-                int o = batch.Row(n, i, side);
-                force += new Vector3d(batch.Linear[o], batch.Linear[o + 1], batch.Linear[o + 2]) * impulses[row + i];
-            }
-        }
-
-        return force;
-    }
-
     /// <summary>Speed of such a row by the momenta and the built inverse inertias.</summary>
     /// <param name="batch">The rows and bodies.</param>
     /// <param name="block">The row's.</param>

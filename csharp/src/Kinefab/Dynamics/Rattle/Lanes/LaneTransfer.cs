@@ -182,8 +182,8 @@ internal static class LaneTransfer<V>
         }
 
         moved.Store(batch.Work.Moved, 0);
-        LaneVector<V>.Gather(MemoryMarshal.Cast<Vector3d, double>(bodies.LinearVelocities), members, 3, 0).Store(a, o, BodyLanes.V);
-        LaneVector<V>.Gather(MemoryMarshal.Cast<Vector3d, double>(bodies.AngularVelocities), members, 3, 0).Store(a, o, BodyLanes.W);
+        LaneVector<V>.Gather(MemoryMarshal.Cast<Vector3d, double>(bodies.LinearVelocities), members).Store(a, o, BodyLanes.V);
+        LaneVector<V>.Gather(MemoryMarshal.Cast<Vector3d, double>(bodies.AngularVelocities), members).Store(a, o, BodyLanes.W);
     }
 
     [MethodImpl(MethodImplOptions.NoInlining)]
@@ -200,7 +200,7 @@ internal static class LaneTransfer<V>
         Lane<V>.Max(zero, one - Lane<V>.Gather(bodies.LinearDampings, members, 1, 0) * time).Store(a, o, BodyLanes.DampingFactors);
         Lane<V>.Max(zero, one - Lane<V>.Gather(bodies.AngularDampings, members, 1, 0) * time).Store(a, o, BodyLanes.DampingFactors + 1);
         Lane<V>.Gather(bodies.MaxAngularSpeeds, members, 1, 0).Store(a, o, BodyLanes.MaxAngularSpeed);
-        LaneVector<V> force = LaneVector<V>.Gather(MemoryMarshal.Cast<Vector3d, double>(bodies.Forces), members, 3, 0);
+        LaneVector<V> force = LaneVector<V>.Gather(MemoryMarshal.Cast<Vector3d, double>(bodies.Forces), members);
         LaneVector<V> acceleration = Lane<V>.Load(a, o, BodyLanes.InverseMass) * force;
         acceleration.Store(a, o, BodyLanes.Acceleration);
         for (int lane = 0; lane < w; lane++)
@@ -212,7 +212,7 @@ internal static class LaneTransfer<V>
             }
         }
 
-        LaneVector<V>.Gather(MemoryMarshal.Cast<Vector3d, double>(bodies.Torques), members, 3, 0).Store(a, o, BodyLanes.Torque);
+        LaneVector<V>.Gather(MemoryMarshal.Cast<Vector3d, double>(bodies.Torques), members).Store(a, o, BodyLanes.Torque);
     }
 
     // An axis of infinite moment takes no torque: in the angular momentum it would spill into the axes that do turn.

@@ -100,13 +100,12 @@ internal sealed class ConjugateGradient
         Array.Copy(_best, solution, solution.Length);
     }
 
-    /// <summary>What the rows answer to impulses, into Work.Solution.</summary>
+    /// <summary>What the rows of the drift's matrix answer to impulses, into Work.Solution.</summary>
     /// <param name="impulses">0 at rows that are at their bound.</param>
-    /// <param name="isDrift">See <see cref="ActiveSet{V}.AddToDiagonal"/>.</param>
-    public void Respond(double[] impulses, bool isDrift)
+    public void RespondInDrift(double[] impulses)
     {
         SwapMomenta();
-        Multiply(impulses, isDrift);
+        Multiply(impulses, isDrift: true);
         SwapMomenta();
     }
 

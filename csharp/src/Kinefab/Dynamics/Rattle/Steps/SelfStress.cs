@@ -36,7 +36,7 @@ internal static class SelfStress
         double[] stress = batch.Work.Move;
         Array.Copy(impulses, stress, impulses.Length);
         batch.ActiveSet?.ClearAtBound(stress);
-        conjugateGradient.Respond(stress, true);
+        conjugateGradient.RespondInDrift(stress);
         double energy = DenseVector.Dot(stress, batch.Work.Solution);
         if (!(CompliantEnergy(batch, stress) > MostCompliant * energy))
         {
@@ -53,7 +53,7 @@ internal static class SelfStress
                 stress[i] -= batch.Work.Solution[i];
             }
 
-            conjugateGradient.Respond(stress, true);
+            conjugateGradient.RespondInDrift(stress);
         }
 
         bool isMoved = !(DenseVector.Largest(batch.Work.Solution) <= tolerance / h) && !(Math.Abs(DenseVector.Dot(stress, batch.Work.Solution)) <= MostMoved * energy);

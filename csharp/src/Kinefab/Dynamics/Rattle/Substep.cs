@@ -254,6 +254,7 @@ internal sealed class Substep
         return false;
     }
 
+    // The same from the piece's start, and from then on, with rows kept to their bounds in every iteration.
     private bool TryPieceEagerly(double left, double tolerance, out double piece)
     {
         piece = left;

@@ -148,6 +148,10 @@ internal sealed class MachineSceneTests
     [TestCase(8002722)]
     public void Step_LimitThatIsLeftByRounding_TakesFewParts(int seed) => AssertTakesFewParts(seed);
 
+    /// <summary>Rows that have to keep to their bounds after a few blows in a part do so from there on: the part was made again from its start, 12 pieces.</summary>
+    [Test]
+    public void Step_RowsThatNeedTheirBoundsLateInAPart_GoOnFromThere() => Assert.That(Run(8000025, Steps, 1).Worst, Is.LessThanOrEqualTo(8));
+
     /// <summary>
     /// An arm of 100 kg on a spring that a step of 1/50 s hardly follows keeps its energy by even parts: halved in one place and begun whole again, it lost
     /// 20 J a step, and showed 10 J more before.

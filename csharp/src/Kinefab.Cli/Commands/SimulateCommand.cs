@@ -26,9 +26,9 @@ internal static class SimulateCommand
         {
             Description = $"JOINT[.COORDINATE]=VALUE[/s]: drive a joint to a value or, with /s, at a speed; degrees or metres, at most {MechanismCoordinate.FarthestDegrees} or {MechanismCoordinate.FarthestMetres} (a second). May be repeated, once for each coordinate. JOINT is what the source calls it, or the id or name of its GameObject, with [COMPONENT] behind it where one object carries several joints.",
         };
-        var record = new Option<string?>("--record") { Description = "Write down the run, NAME.kfrec: what went in, and a hash of the state after its steps." };
+        Option<string?> record = TypedOptions.File("--record", "Write down the run, NAME.kfrec: what went in, and a hash of the state after its steps.");
         Option<int> every = TypedOptions.Count("--every", "Steps between two hashes of --record.", most: TypedOptions.MostSteps, standard: 1);
-        var replay = new Option<string?>("--replay") { Description = "Make a recorded run again, with its seconds, step, solver and drives, and name the first step that differs (exit 1)." };
+        Option<string?> replay = TypedOptions.File("--replay", "Make a recorded run again, with its seconds, step, solver and drives, and name the first step that differs (exit 1).");
         var command = new Command("simulate", "Run a scene and say what its joints did.") { seconds, step, solver, output, drives, record, every, replay };
         command.Validators.Add(result =>
         {

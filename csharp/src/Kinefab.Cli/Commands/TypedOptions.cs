@@ -68,6 +68,18 @@ internal static class TypedOptions
         return option;
     }
 
+    /// <summary>A file's name.</summary>
+    internal static Option<string?> File(string name, string description)
+    {
+        var option = new Option<string?>(name) { Description = description };
+        option.Validators.Add(result =>
+        {
+            if (result.Tokens.Count == 1 && result.Tokens[0].Value.Length == 0)
+                result.AddError($"{name} must name a file, not ''.");
+        });
+        return option;
+    }
+
     private static Option<double?> Number(string name, string description, Func<double, bool> isAllowed, string wanted) => new(name)
     {
         Description = description,

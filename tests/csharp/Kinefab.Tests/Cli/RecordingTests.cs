@@ -151,6 +151,31 @@ public sealed class RecordingTests
         Assert.That(findings, Does.Contain($"error RECORDING_UNREADABLE: The recording {record} cannot be read: {said}"));
     }
 
+    [TestCase("\"stepz\": 1,", "it has a field stepz, which no recording has")]
+    [TestCase("\"steps\": 1,", "it has the field steps twice")]
+    [TestCase("\"\\udc00\": 1,", "a field's name is no text of Unicode")]
+    public void Replay_OfAFieldThatNoRecordingHasOrTwice_IsAFinding(string more, string said)
+    {
+        string record = Record(1);
+        System.IO.File.WriteAllText(record, System.IO.File.ReadAllText(record).Insert(1, more));
+
+        (int exit, string data, string findings) = CommandLineTests.Run("simulate", Scene, "--replay", record);
+
+        Assert.That((exit, data), Is.EqualTo((1, "")));
+        Assert.That(findings, Does.Contain($"error RECORDING_UNREADABLE: The recording {record} cannot be read: {said}. "));
+    }
+
+    [TestCase("--record", "--seconds", "0.1")]
+    [TestCase("--replay")]
+    [TestCase("--junit", "--seconds", "0.1")]
+    public void Run_AFileWithoutAName_IsWrongUsage(string option, params string[] more)
+    {
+        (int exit, _, string findings) = CommandLineTests.Run(["simulate", Scene, option, "", .. more]);
+
+        Assert.That(exit, Is.EqualTo(2));
+        Assert.That(findings, Does.StartWith($"{option} must name a file, not ''."));
+    }
+
     [Test]
     public void Replay_OfNoFileOrAFolder_IsAFinding()
     {

@@ -19,7 +19,7 @@ internal static class SimulateCommand
     {
         var scenes = new SceneArguments();
         Option<double?> seconds = TypedOptions.Positive("--seconds", $"How long to simulate, rounded to whole steps: one at least, and at most {TypedOptions.MostSteps}. Required, but for --replay.");
-        Option<double?> step = TypedOptions.Positive("--step", "Time step in seconds, no longer than --seconds; default: the scene's fixedTimestep.");
+        Option<double?> step = TypedOptions.Positive("--step", $"Time step in seconds, at least {TypedOptions.ShortestStep.ToString(CultureInfo.InvariantCulture)} and no longer than --seconds; default: the scene's fixedTimestep.");
         Option<SolverKind> solver = TypedOptions.Solver();
         Option<string?> output = TypedOptions.Trajectory();
         var drives = new Option<string[]>("--drive")
@@ -102,6 +102,8 @@ internal static class SimulateCommand
             double count = Replayed?.Steps ?? Math.Round(Seconds / dt);
             if (count > TypedOptions.MostSteps)
                 return SceneOutcome.Refused(loaded.Report, string.Create(CultureInfo.InvariantCulture, $"--seconds {Seconds} at {dt} s a step makes {count} steps; at most {TypedOptions.MostSteps} are run. Give fewer seconds or a longer --step."));
+            if (dt < TypedOptions.ShortestStep)
+                return SceneOutcome.Refused(loaded.Report, string.Create(CultureInfo.InvariantCulture, $"A step of {dt} s is shorter than {TypedOptions.ShortestStep} s: what a body moves in it is less than the numbers of its place tell, and the rest is noise. Give a longer --step."));
             if (!double.IsFinite(count * dt))
                 return SceneOutcome.Refused(loaded.Report, string.Create(CultureInfo.InvariantCulture, $"--seconds {Seconds} at {dt} s a step make no finite time."));
             RunRecord? plan = null;

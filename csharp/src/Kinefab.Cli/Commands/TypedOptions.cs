@@ -13,6 +13,9 @@ internal static class TypedOptions
     /// <summary>Steps of any run: minutes of work for a mechanism.</summary>
     internal const int MostSteps = 1_000_000;
 
+    /// <summary>Seconds. A body's place is known to 1e-16 of its distance: over 1e-15 s that is a metre a second, which no joint put there.</summary>
+    internal const double ShortestStep = 1e-9;
+
     internal static Option<double?> Positive(string name, string description) =>
         Number(name, description, value => value > 0, "a positive number");
 

@@ -110,9 +110,9 @@ internal static class RecordFile
             "exact" => SolverKind.Exact,
             var other => throw new InvalidDataException($"solver is {other}; there are unity and exact"),
         };
-        double step = Member(root, "step", JsonValueKind.Number).TryGetDouble(out double value) && value > 0 && double.IsFinite(value)
+        double step = Member(root, "step", JsonValueKind.Number).TryGetDouble(out double value) && value >= TypedOptions.ShortestStep && double.IsFinite(value)
             ? value
-            : throw new InvalidDataException("step is no positive number of seconds");
+            : throw new InvalidDataException(string.Create(CultureInfo.InvariantCulture, $"step is no number of seconds from {TypedOptions.ShortestStep} on"));
         int steps = Whole(root, "steps");
         if (!double.IsFinite(steps * step))
             throw new InvalidDataException("steps of step seconds make no finite time");

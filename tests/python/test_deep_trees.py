@@ -2,11 +2,16 @@
 
 from __future__ import annotations
 
+import json
+
+import kinefab
 import numpy as np
 import pytest
+from kinefab import rigid
 from kinefab.diagnostics import KinefabError, Report
 from kinefab.model import MassProperties, Node, NodeKind, Scene
 from kinefab.rigid import rigid_groups
+from kinefab.unity import mapping
 from kinefab.unity.bodies.rigidbodies import map_rigidbody, place_rigidbodies
 from source_bundles import bundle, part, read
 
@@ -44,6 +49,44 @@ def test_a_chain_of_parts_is_walked_in_proportion_to_its_depth(frozen):
         map_rigidbody(scene, carrier, members, Report())
     assert len(placed.carriers) == (1 if frozen else deep)
     assert nodes.asked < 40 * deep
+
+
+def test_a_chain_of_assemblies_is_exported_in_proportion_to_its_depth(tmp_path, monkeypatch):
+    """Which Rigidbody moves each object was asked of all that stand above it."""
+    deep, counted = 800, []
+    nodes = [Node(f"a{i}", f"a{i}", NodeKind.ASSEMBLY, parent=i - 1 if i else None) for i in range(deep)]
+    nodes += [Node("p", "p", parent=deep - 1, mass=MASS)]
+    keep_apart = mapping._Builder.keep_apart
+
+    def counting(builder):
+        builder.objects, builder.components = Counted(builder.objects), Counted(builder.components)
+        keep_apart(builder)
+        counted.append(builder.objects.asked + builder.components.asked)
+
+    monkeypatch.setattr(mapping._Builder, "keep_apart", counting)
+    kinefab.export(Scene(nodes=nodes), tmp_path / "deep.kinefab")
+    assert len(counted) == 1 and counted[0] < 10 * deep
+
+
+def test_a_chain_that_was_written_is_read_again(tmp_path):
+    """What an object gives a place was asked of all below it, from within each other: a thousand were too many for Python."""
+    deep = 1200
+    nodes = [Node("top", "top", NodeKind.ASSEMBLY)]
+    nodes += [Node(f"p{i}", f"p{i}", parent=i, mass=MASS) for i in range(deep)]
+    written = kinefab.export(Scene(nodes=nodes), tmp_path / "deep.kinefab").path
+    again = kinefab.export(written, tmp_path / "again.kinefab").path
+    assert [one["id"] for one in json.loads(again.read_text())["gameObjects"]] == [node.id for node in nodes]
+
+
+def test_a_group_of_thousands_is_looked_at_once(tmp_path, monkeypatch):
+    """Whether scripts move it was asked of all its parts for each of them."""
+    parts, looked = 600, []
+    nodes = [Node("top", "top", NodeKind.ASSEMBLY, flexible=False)]
+    nodes += [Node(f"p{i}", f"p{i}", parent=0, mass=MASS) for i in range(parts)]
+    is_kinematic = rigid.is_kinematic
+    monkeypatch.setattr(rigid, "is_kinematic", lambda scene, nodes: looked.append(len(nodes)) or is_kinematic(scene, nodes))
+    kinefab.export(Scene(nodes=nodes), tmp_path / "group.kinefab")
+    assert 0 < sum(looked) < 10 * parts
 
 
 def test_masses_are_counted_once_in_every_tree():

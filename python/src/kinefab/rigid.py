@@ -51,6 +51,12 @@ def is_dynamic(scene: Scene, groups: RigidGroups, node: int) -> bool:
     return group is not None and not groups.grounded[group] and not is_kinematic(scene, groups.members[group])
 
 
+def dynamic_nodes(scene: Scene, groups: RigidGroups) -> list[bool]:
+    """``is_dynamic`` of every node, with one look at each group: thousands of parts may be one."""
+    moves = [not own and not is_kinematic(scene, nodes) for own, nodes in zip(groups.grounded, groups.members)]
+    return [group is not None and moves[group] for group in groups.group_of]
+
+
 def moves_nothing(joint: Joint, scene: Scene, groups: RigidGroups) -> bool:
     """Whether forces move neither side of a joint: what scripts move, or what stands."""
     return not any(side is not None and is_dynamic(scene, groups, side) for side in (joint.a, joint.b))

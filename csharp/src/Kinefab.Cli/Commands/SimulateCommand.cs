@@ -19,16 +19,16 @@ internal static class SimulateCommand
     {
         var scenes = new SceneArguments();
         Option<double?> seconds = TypedOptions.Positive("--seconds", $"How long to simulate, rounded to whole steps: one at least, and at most {TypedOptions.MostSteps}. Required, but for --replay.");
-        Option<double?> step = TypedOptions.Positive("--step", "Time step in seconds, no longer than --seconds; default: the scene's fixedTimestep.");
+        Option<double?> step = TypedOptions.Positive("--step", $"Time step in seconds, at least {TypedOptions.ShortestStep.ToString(CultureInfo.InvariantCulture)} and no longer than --seconds; default: the scene's fixedTimestep.");
         Option<SolverKind> solver = TypedOptions.Solver();
         Option<string?> output = TypedOptions.Trajectory();
         var drives = new Option<string[]>("--drive")
         {
             Description = $"JOINT[.COORDINATE]=VALUE[/s]: drive a joint to a value or, with /s, at a speed; degrees or metres, at most {MechanismCoordinate.FarthestDegrees} or {MechanismCoordinate.FarthestMetres} (a second). May be repeated, once for each coordinate. JOINT is what the source calls it, or the id or name of its GameObject, with [COMPONENT] behind it where one object carries several joints.",
         };
-        var record = new Option<string?>("--record") { Description = "Write down the run, NAME.kfrec: what went in, and a hash of the state after its steps." };
+        Option<string?> record = TypedOptions.File("--record", "Write down the run, NAME.kfrec: what went in, and a hash of the state after its steps.");
         Option<int> every = TypedOptions.Count("--every", "Steps between two hashes of --record.", most: TypedOptions.MostSteps, standard: 1);
-        var replay = new Option<string?>("--replay") { Description = "Make a recorded run again, with its seconds, step, solver and drives, and name the first step that differs (exit 1)." };
+        Option<string?> replay = TypedOptions.File("--replay", "Make a recorded run again, with its seconds, step, solver and drives, and name the first step that differs (exit 1).");
         var command = new Command("simulate", "Run a scene and say what its joints did.") { seconds, step, solver, output, drives, record, every, replay };
         command.Validators.Add(result =>
         {
@@ -102,6 +102,8 @@ internal static class SimulateCommand
             double count = Replayed?.Steps ?? Math.Round(Seconds / dt);
             if (count > TypedOptions.MostSteps)
                 return SceneOutcome.Refused(loaded.Report, string.Create(CultureInfo.InvariantCulture, $"--seconds {Seconds} at {dt} s a step makes {count} steps; at most {TypedOptions.MostSteps} are run. Give fewer seconds or a longer --step."));
+            if (dt < TypedOptions.ShortestStep)
+                return SceneOutcome.Refused(loaded.Report, string.Create(CultureInfo.InvariantCulture, $"A step of {dt} s is shorter than {TypedOptions.ShortestStep} s: what a body moves in it is less than the numbers of its place tell, and the rest is noise. Give a longer --step."));
             if (!double.IsFinite(count * dt))
                 return SceneOutcome.Refused(loaded.Report, string.Create(CultureInfo.InvariantCulture, $"--seconds {Seconds} at {dt} s a step make no finite time."));
             RunRecord? plan = null;

@@ -13,6 +13,9 @@ internal static class TypedOptions
     /// <summary>Steps of any run: minutes of work for a mechanism.</summary>
     internal const int MostSteps = 1_000_000;
 
+    /// <summary>Seconds. A body's place is known to 1e-16 of its distance: over 1e-15 s that is a metre a second, which no joint put there.</summary>
+    internal const double ShortestStep = 1e-9;
+
     internal static Option<double?> Positive(string name, string description) =>
         Number(name, description, value => value > 0, "a positive number");
 
@@ -64,6 +67,18 @@ internal static class TypedOptions
             string extension = result.Tokens.Count == 1 ? Path.GetExtension(result.Tokens[0].Value) : ".json";
             if (!extension.Equals(".json", StringComparison.OrdinalIgnoreCase) && !extension.Equals(".csv", StringComparison.OrdinalIgnoreCase))
                 result.AddError($"--output must end in .json or .csv, not '{extension}'.");
+        });
+        return option;
+    }
+
+    /// <summary>A file's name.</summary>
+    internal static Option<string?> File(string name, string description)
+    {
+        var option = new Option<string?>(name) { Description = description };
+        option.Validators.Add(result =>
+        {
+            if (result.Tokens.Count == 1 && result.Tokens[0].Value.Length == 0)
+                result.AddError($"{name} must name a file, not ''.");
         });
         return option;
     }

@@ -17,11 +17,13 @@ internal sealed class SceneArguments
 
     private readonly Option<bool> _json = new("--json") { Description = "Print one JSON document on stdout: an object, or of several files an array." };
 
-    private readonly Option<string?> _junit = new("--junit") { Description = "Write the outcome of each file into a JUnit report, .xml." };
+    private readonly Option<string?> _junit = TypedOptions.File("--junit", "Write the outcome of each file into a JUnit report, .xml.");
 
     /// <summary>What is mistyped for an option is no file.</summary>
     internal SceneArguments() => _files.Validators.Add(result =>
     {
+        if (result.Tokens.Any(token => token.Value.Length == 0))
+            result.AddError("A scene file's name is empty.");
         foreach (string name in result.Tokens.Select(token => token.Value).Where(name => name.Length > 1 && name[0] == '-'))
             result.AddError($"Unrecognized option '{name}'.{NearWords.Among(name, Options(result))} A file of this name is given as ./{name}.");
     });

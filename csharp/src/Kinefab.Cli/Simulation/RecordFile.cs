@@ -1,4 +1,5 @@
 using System;
+using System.Collections.Generic;
 using System.Globalization;
 using System.IO;
 using System.Linq;
@@ -17,6 +18,8 @@ internal static class RecordFile
 {
     private const string Format = "kinefab.recording";
     private const string Version = "1.0";
+
+    private static readonly string[] Fields = ["format", "version", "scene", "solver", "step", "steps", "drives", "every", "hashes"];
 
     // Of the most steps that are run, one hash each, and room to spare.
     private const long MostBytes = 64L << 20;
@@ -87,6 +90,17 @@ internal static class RecordFile
 
     private static RunRecord Read(JsonElement root)
     {
+        // Of two fields of one name either may be meant, and one that was mistyped would not be missed where it stands beside the true one.
+        var seen = new HashSet<string>(StringComparer.Ordinal);
+        foreach (JsonProperty member in root.EnumerateObject())
+        {
+            string name = NameOf(member);
+            if (!Fields.Contains(name))
+                throw new InvalidDataException($"it has a field {name}, which no recording has");
+            if (!seen.Add(name))
+                throw new InvalidDataException($"it has the field {name} twice");
+        }
+
         string scene = Text(root, "scene");
         if (scene.Length != 64 || !scene.All(char.IsAsciiHexDigitLower))
             throw new InvalidDataException("scene is not 64 hexadecimal digits");
@@ -96,9 +110,9 @@ internal static class RecordFile
             "exact" => SolverKind.Exact,
             var other => throw new InvalidDataException($"solver is {other}; there are unity and exact"),
         };
-        double step = Member(root, "step", JsonValueKind.Number).TryGetDouble(out double value) && value > 0 && double.IsFinite(value)
+        double step = Member(root, "step", JsonValueKind.Number).TryGetDouble(out double value) && value >= TypedOptions.ShortestStep && double.IsFinite(value)
             ? value
-            : throw new InvalidDataException("step is no positive number of seconds");
+            : throw new InvalidDataException(string.Create(CultureInfo.InvariantCulture, $"step is no number of seconds from {TypedOptions.ShortestStep} on"));
         int steps = Whole(root, "steps");
         if (!double.IsFinite(steps * step))
             throw new InvalidDataException("steps of step seconds make no finite time");
@@ -135,6 +149,18 @@ internal static class RecordFile
         catch (InvalidOperationException)
         {
             throw new InvalidDataException($"{name} is no text of Unicode");
+        }
+    }
+
+    private static string NameOf(JsonProperty member)
+    {
+        try
+        {
+            return member.Name;
+        }
+        catch (InvalidOperationException)
+        {
+            throw new InvalidDataException("a field's name is no text of Unicode");
         }
     }
 

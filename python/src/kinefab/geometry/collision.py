@@ -11,7 +11,7 @@ import numpy as np
 from ..diagnostics import Report
 from ..model import Body, Collider, ColliderKind, Mesh, Node, Scene
 from ..options import ColliderShape, Ground
-from ..rigid import RigidGroups, is_dynamic
+from ..rigid import RigidGroups, dynamic_nodes
 from .contact.decomposition import convex_pieces
 from .contact.neighbours import meshes_near_others
 from .hulls import collision_hulls
@@ -123,8 +123,7 @@ class _Asked:
     @classmethod
     def of(cls, scene: Scene, groups: RigidGroups, shape: ColliderShape) -> _Asked:
         asked = cls(Shapes(scene.meshes))
-        for i, node in enumerate(scene.nodes):
-            moves = is_dynamic(scene, groups, i)
+        for node, moves in zip(scene.nodes, dynamic_nodes(scene, groups)):
             if node.colliders is None:
                 asked.add_bodies(node, node.collision or shape, moves)
             for stated in node.colliders or ():

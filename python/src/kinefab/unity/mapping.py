@@ -13,7 +13,7 @@ from ..findings import JointFinding
 from ..geometry.collision import possible
 from ..model import PLAIN, Collider, FreeIds, PhysicsMaterial, Scene, Surface
 from ..options import Ground
-from ..rigid import RigidGroups, active_nodes, is_dynamic, is_kinematic
+from ..rigid import RigidGroups, active_nodes, dynamic_nodes, is_kinematic
 from . import frames
 from .apart import apart_id, apart_joint
 from .as_stated import with_stated
@@ -121,6 +121,7 @@ class _Builder:
     free_ids: FreeIds = field(default_factory=FreeIds)
     rigidbodies: Rigidbodies | None = None
     parents: list[int | None] = field(default_factory=list[int | None])
+    dynamic: list[bool] = field(default_factory=list[bool])
     ground: int | None = None
     standing: Standing = Standing((), {})
 
@@ -139,6 +140,7 @@ class _Builder:
 
     def add_objects(self) -> None:
         self.surfaces = list(self.scene.surfaces)
+        self.dynamic = dynamic_nodes(self.scene, self.groups)
         self.rigidbodies = place_rigidbodies(self.scene, self.groups)
         self.parents = parents_beside(self.scene, self.groups, self.rigidbodies)
         welded, left = carried_along(self.scene, self.rigidbodies, self.parents)
@@ -176,7 +178,7 @@ class _Builder:
         """One body at home is the object's own mesh; others are children, so that each keeps its place and collider."""
         node = self.scene.nodes[index]
         bodies = [body for body in node.bodies if body.mesh is not None]
-        moves = is_dynamic(self.scene, self.groups, index)
+        moves = self.dynamic[index]
         for body in bodies:
             assert body.mesh is not None
             holder = parent
@@ -209,7 +211,7 @@ class _Builder:
                 collider,
                 self.colliders,
                 self.scene.meshes,
-                is_dynamic(self.scene, self.groups, index),
+                self.dynamic[index],
                 material,
                 node.id,
                 self.report,
@@ -287,7 +289,7 @@ class _Builder:
 
     def keep_apart(self) -> None:
         """Joints that hold nothing between bodies that the source lets pass through each other: Unity needs no script then."""
-        bodies = [self._body(index) for index in range(len(self.objects))]
+        bodies = self._bodies()
         joined = {
             frozenset((bodies[i], c.connectedBody))
             for i, own in enumerate(self.components)
@@ -337,6 +339,14 @@ class _Builder:
                     holders = self.standing.bases[base]
                     others = [self.ground if holder is None else self.object_of[holder] for holder in holders]
                     found += [(own, other) for other in others if self._moves(own)]
+        return found
+
+    def _bodies(self) -> list[int | None]:
+        """``_body`` of every object, each of which stands behind the one above it."""
+        found: list[int | None] = []
+        for index, (own, components) in enumerate(zip(self.objects, self.components)):
+            above = None if own.parent is None else found[own.parent]
+            found.append(index if any(isinstance(c, Rigidbody) for c in components) else above)
         return found
 
     def _body(self, index: int) -> int | None:

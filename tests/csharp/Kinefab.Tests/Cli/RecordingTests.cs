@@ -113,8 +113,9 @@ public sealed class RecordingTests
     [TestCase("format", "3", "its format is not kinefab.recording")]
     [TestCase("scene", "\"abc\"", "scene is not 64 hexadecimal digits")]
     [TestCase("solver", "\"fast\"", "solver is fast; there are unity and exact")]
-    [TestCase("step", "-1", "step is no positive number of seconds")]
-    [TestCase("step", "1e999", "step is no positive number of seconds")]
+    [TestCase("step", "-1", "step is no number of seconds from 1E-09 on")]
+    [TestCase("step", "1e-15", "step is no number of seconds from 1E-09 on")]
+    [TestCase("step", "1e999", "step is no number of seconds from 1E-09 on")]
     [TestCase("step", "1e308", "steps of step seconds make no finite time")]
     [TestCase("steps", "49.5", "steps is no whole number from 1 to 1000000")]
     [TestCase("steps", "49", "it has 51 hashes; 49 steps with one for every 1 make 50")]
@@ -149,6 +150,31 @@ public sealed class RecordingTests
 
         Assert.That(exit, Is.EqualTo(1));
         Assert.That(findings, Does.Contain($"error RECORDING_UNREADABLE: The recording {record} cannot be read: {said}"));
+    }
+
+    [TestCase("\"stepz\": 1,", "it has a field stepz, which no recording has")]
+    [TestCase("\"steps\": 1,", "it has the field steps twice")]
+    [TestCase("\"\\udc00\": 1,", "a field's name is no text of Unicode")]
+    public void Replay_OfAFieldThatNoRecordingHasOrTwice_IsAFinding(string more, string said)
+    {
+        string record = Record(1);
+        System.IO.File.WriteAllText(record, System.IO.File.ReadAllText(record).Insert(1, more));
+
+        (int exit, string data, string findings) = CommandLineTests.Run("simulate", Scene, "--replay", record);
+
+        Assert.That((exit, data), Is.EqualTo((1, "")));
+        Assert.That(findings, Does.Contain($"error RECORDING_UNREADABLE: The recording {record} cannot be read: {said}. "));
+    }
+
+    [TestCase("--record", "--seconds", "0.1")]
+    [TestCase("--replay")]
+    [TestCase("--junit", "--seconds", "0.1")]
+    public void Run_AFileWithoutAName_IsWrongUsage(string option, params string[] more)
+    {
+        (int exit, _, string findings) = CommandLineTests.Run(["simulate", Scene, option, "", .. more]);
+
+        Assert.That(exit, Is.EqualTo(2));
+        Assert.That(findings, Does.StartWith($"{option} must name a file, not ''."));
     }
 
     [Test]

@@ -188,6 +188,18 @@ public sealed class SimulateCommandTests
         Assert.That(findings, Does.Contain("at most 1000000 are run"));
     }
 
+    // Rounding alone moved the lever at metres a second in such steps; in shorter ones the run stopped, and a still shorter step was advised.
+    [TestCase("unity")]
+    [TestCase("exact")]
+    public void Run_StepThatIsShorterThanNumbersTell_IsRefused(string solver)
+    {
+        (int exit, string data, string findings) = CommandLineTests.Run("simulate", Scene, "--seconds", "3e-15", "--step", "1e-15", "--solver", solver);
+
+        Assert.That((exit, data), Is.EqualTo((2, "")));
+        Assert.That(findings, Does.StartWith("A step of 1E-15 s is shorter than 1E-09 s: ").And.Contain("Give a longer --step."));
+        Assert.That(CommandLineTests.Run("simulate", Scene, "--seconds", "3e-9", "--step", "1e-9", "--solver", solver).Exit, Is.EqualTo(0));
+    }
+
     [TestCase("--seconds 1 is less than one step of 20 s", "--seconds", "1", "--step", "20")]
     [TestCase("--seconds 1 is less than one step of 1.2 s", "--seconds", "1", "--step", "1.2")]
     [TestCase("--seconds 0.001 is less than one step of 0.02 s", "--seconds", "0.001")]

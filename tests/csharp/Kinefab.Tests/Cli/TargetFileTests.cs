@@ -1,4 +1,7 @@
+using System;
+using System.Diagnostics;
 using System.IO;
+using System.IO.Pipes;
 using System.Linq;
 using System.Text;
 using Kinefab.Cli.Motion;
@@ -75,6 +78,55 @@ public sealed class TargetFileTests
         Assert.That(new FileInfo(path).LinkTarget, Is.EqualTo(Path.Combine("runs", "run 1.json")));
         Assert.That((File.ReadAllText(path), File.ReadAllText(led)), Is.EqualTo(("new", "new")));
         Assert.That(Directory.GetFileSystemEntries(_folder, "*", SearchOption.AllDirectories), Is.EquivalentTo(new[] { path, folder, led }));
+    }
+
+    // As root a rename would put a file into the place of /dev/null for everybody. A link stands for /dev/stdout.
+    [TestCase(false)]
+    [TestCase(true)]
+    [Platform("Unix")]
+    public void Write_Pipe_WritesIntoItAndKeepsIt(bool isLinked)
+    {
+        string pipe = Path.Combine(_folder, "pipe"), path = isLinked ? Path.Combine(_folder, "link") : pipe;
+        using (var made = Process.Start("mkfifo", [pipe]))
+            made.WaitForExit();
+        if (isLinked)
+            File.CreateSymbolicLink(path, pipe);
+
+        Assert.That(TargetFile.Check(path).HasErrors, Is.False);
+        using Process reader = Process.Start(new ProcessStartInfo("cat", [pipe]) { RedirectStandardOutput = true })!;
+        Assert.That(TargetFile.Write(path, target => target.Write("new"u8)).HasErrors, Is.False);
+        bool isRead = reader.WaitForExit(10_000);
+        if (!isRead)
+            reader.Kill();
+
+        Assert.That(isRead, Is.True);
+        Assert.That(reader.StandardOutput.ReadToEnd(), Is.EqualTo("new"));
+        Assert.That(new FileInfo(pipe).Length, Is.EqualTo(0));
+    }
+
+    [Test]
+    public void Write_LinkToAPipeWithoutAName_WritesIntoIt()
+    {
+        if (!OperatingSystem.IsLinux())
+            Assert.Ignore("where other systems keep open files is no link");
+        using var server = new AnonymousPipeServerStream(PipeDirection.In);
+        string path = $"/proc/self/fd/{server.ClientSafePipeHandle.DangerousGetHandle()}";
+
+        Assert.That(TargetFile.Check(path).HasErrors, Is.False);
+        Assert.That(TargetFile.Write(path, target => target.Write("new"u8)).HasErrors, Is.False);
+
+        var read = new byte[3];
+        server.ReadExactly(read);
+        Assert.That(read, Is.EqualTo("new"u8.ToArray()));
+    }
+
+    [Test]
+    public void Write_EmptyFile_IsReplaced()
+    {
+        string path = Path.Combine(_folder, "motion.json");
+        File.WriteAllText(path, "");
+        Assert.That(TargetFile.Write(path, target => target.Write("new"u8)).HasErrors, Is.False);
+        Assert.That(File.ReadAllText(path), Is.EqualTo("new"));
     }
 
     [Test]

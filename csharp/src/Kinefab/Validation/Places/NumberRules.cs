@@ -18,9 +18,15 @@ internal static class NumberRules
     /// <summary>What has to be above 0 is so as a 32-bit float too, in which Unity computes.</summary>
     internal static void NotVanishing(in Place at, string field, double value)
     {
-        if (value > 0 && (float)value == 0)
+        if (value > 0 && Vanishes(value))
             at.Report(field, DiagnosticCodes.NumberBelowFloat32, ("number", Invariant.Text(value)));
     }
+
+    /// <summary>Whether a number is 0 as a 32-bit float, in which Unity computes.</summary>
+    internal static bool Vanishes(double value) => (float)value == 0;
+
+    /// <summary>Whether a vector has no length as 32-bit floats.</summary>
+    internal static bool Vanishes(Vector3d value) => Vanishes(value.X) && Vanishes(value.Y) && Vanishes(value.Z);
 
     /// <summary>Infinity stands for "without limit".</summary>
     internal static void PositiveOrUnlimited(in Place at, string field, double value)

@@ -18,7 +18,7 @@ internal static class TransformRules
     internal static void ScaleZero(Transform transform, in Place at)
     {
         Vector3d scale = transform.LocalScale;
-        if (scale.X == 0 || scale.Y == 0 || scale.Z == 0)
+        if (NumberRules.Vanishes(scale.X) || NumberRules.Vanishes(scale.Y) || NumberRules.Vanishes(scale.Z))
             at.Report("transform/localScale", DiagnosticCodes.TransformScaleZero, ("scale", scale.ToString()));
     }
 

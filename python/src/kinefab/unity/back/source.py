@@ -144,7 +144,10 @@ class _Nodes:
         self.meshes = list(map(unmapped_mesh, scene.meshes))
         self.drawn = {c.mesh for entry in self.objects for c in entry.components if isinstance(c, MeshFilter)}
         self.ground = next((i for i, entry in enumerate(self.objects) if entry.role == "ground" or entry.id == GROUND_ID), None)
-        self.placed = {i: kind for i in range(len(self.objects)) if (kind := self._place_of(i))}
+        self.placed: dict[int, str] = {}
+        for index in range(len(self.objects) - 1, -1, -1):  # children, which stand behind their parent, before it
+            if kind := self._place_of(index):
+                self.placed[index] = kind
         self.light = led_bodies(scene)
         kept = [i for i in range(len(self.objects)) if i != self.ground and i not in self.placed and i not in self.light]
         self.node_of = {index: node for node, index in enumerate(kept)}
@@ -152,6 +155,9 @@ class _Nodes:
         self.moving = [
             body is not None and not self._is_held(i) and i not in self.light for i, body in enumerate(self.bodies)
         ]
+        self.carried: list[bool] = []  # whether a body further up moves it
+        for above in (entry.parent for entry in self.objects):
+            self.carried.append(above is not None and above != self.ground and (self.bodies[above] is not None or self.carried[above]))
         self.above_moving = list(self.moving)
         for index in range(len(self.objects) - 1, -1, -1):
             parent = self.objects[index].parent
@@ -194,7 +200,7 @@ class _Nodes:
     def _place_of(self, index: int) -> str:
         """``body``, ``collider`` or ``site`` of an object that only gives one a place on the node above it, "" of any other."""
         entry = self.objects[index]
-        if entry.parent is None or not entry.active or any(self._place_of(i) != "collider" for i in self.children[index]):
+        if entry.parent is None or not entry.active or any(self.placed.get(i) != "collider" for i in self.children[index]):
             return ""
         if entry.role == "site":
             return "site"
@@ -223,7 +229,7 @@ class _Nodes:
         shapes = [s for i in (index, *inner) for s in self._shapes(i, index)]
         choice = self._choice((index, *inner))
         stands = body is not None and self._is_held(index)
-        held = stands or (body is None and not self.above_moving[index] and not self._carried(index))
+        held = stands or (body is None and not self.above_moving[index] and not self.carried[index])
         below = [i for i in self.children[index] if i in self.node_of]
         whole = self.moving[index] and bool(below) and not any(self.above_moving[i] for i in below)
         part = (bool(bodies or shapes or not below) or body is not None) and not whole
@@ -242,7 +248,7 @@ class _Nodes:
             bodies=tuple(bodies),
             mass=mass,
             grounded=held and part,
-            flexible=not whole and not self._carried(index),
+            flexible=not whole and not self.carried[index],
             suppressed=not entry.active,
             colliders=tuple(shapes) if choice is None else None,
             collision=choice,
@@ -259,15 +265,6 @@ class _Nodes:
 
     def _parent(self, entry: GameObject) -> int | None:
         return None if entry.parent is None else self.node_of.get(entry.parent)
-
-    def _carried(self, index: int) -> bool:
-        """Whether a body further up moves it."""
-        at = self.objects[index].parent
-        while at is not None and at != self.ground:
-            if self.bodies[at] is not None:
-                return True
-            at = self.objects[at].parent
-        return False
 
     def _local(self, index: int, node: int) -> Pose:
         return self.back.poses[node].inverse() @ self.back.poses[index]

@@ -7,6 +7,7 @@ from collections.abc import Sequence
 
 from .findings import Entry, Findings
 from .hierarchy import Hierarchy
+from .shape import NOTHING
 
 SINE = 1e-4
 """Up to here a secondary axis lies along the axis."""
@@ -24,7 +25,7 @@ def check_joint(joint: Entry, index: int, at: str, places: Hierarchy, found: Fin
             found.add("CONNECTED_BODY_WITHOUT_RIGIDBODY", place, gameObject=connected)
     if joint["type"] == "FixedJoint":
         return
-    if not any(joint.get("axis", (1,))):
+    if _vanishes(joint.get("axis", (1,))):
         found.add("JOINT_AXIS_ZERO", f"{at}/axis")
     if joint["type"] == "HingeJoint":
         _check_hinge(joint, at, found)
@@ -41,7 +42,7 @@ def _check_hinge(joint: Entry, at: str, found: Findings) -> None:
 
 def _check_configurable(joint: Entry, at: str, found: Findings) -> None:
     axis, secondary = joint.get("axis", (1, 0, 0)), joint.get("secondaryAxis", (0, 1, 0))
-    if any(axis) and _parallel(axis, secondary):
+    if not _vanishes(axis) and (_vanishes(secondary) or _parallel(axis, secondary)):
         found.add("JOINT_SECONDARY_AXIS_PARALLEL", f"{at}/secondaryAxis")
     low, high = (joint.get(f"{end}AngularXLimit", {}).get("limit", 0) for end in ("low", "high"))
     if low > high:
@@ -50,6 +51,11 @@ def _check_configurable(joint: Entry, at: str, found: Findings) -> None:
         limit = joint.get(name, {}).get("limit", 0)
         if limit < 0:
             found.add("LIMIT_NEGATIVE", f"{at}/{name}/limit", limit=limit)
+
+
+def _vanishes(axis: Sequence[float]) -> bool:
+    """Whether nothing is left of it as 32-bit floats, in which Unity computes."""
+    return all(abs(number) <= NOTHING for number in axis)
 
 
 def _parallel(a: Sequence[float], b: Sequence[float]) -> bool:

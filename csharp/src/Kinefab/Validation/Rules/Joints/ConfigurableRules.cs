@@ -34,7 +34,7 @@ internal static class ConfigurableRules
     {
         const double sine = 1e-4;
         double area = Vector3d.Cross(joint.Axis, joint.SecondaryAxis).Length;
-        if (joint.Axis != Vector3d.Zero && area <= sine * joint.Axis.Length * joint.SecondaryAxis.Length)
+        if (!NumberRules.Vanishes(joint.Axis) && (NumberRules.Vanishes(joint.SecondaryAxis) || area <= sine * joint.Axis.Length * joint.SecondaryAxis.Length))
             at.Report("secondaryAxis", DiagnosticCodes.JointSecondaryAxisParallel);
     }
 

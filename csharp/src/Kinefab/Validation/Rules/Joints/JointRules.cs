@@ -64,10 +64,10 @@ internal static class JointRules
             at.Report("", DiagnosticCodes.JointBetweenKinematic);
     }
 
-    /// <summary>An axis of length zero says nothing; Unity silently takes its own X.</summary>
+    /// <summary>An axis of length zero, as 32-bit floats too, says nothing; Unity silently takes its own X.</summary>
     internal static void Axis(AnchoredJoint joint, in Place at)
     {
-        if (joint.Axis == Vector3d.Zero)
+        if (NumberRules.Vanishes(joint.Axis))
             at.Report("axis", DiagnosticCodes.JointAxisZero);
     }
 

@@ -12,7 +12,10 @@ using Kinefab.Validation;
 
 namespace Kinefab.Cli.Commands;
 
-/// <summary>dotnet kinefab simulate FILES --seconds S [--step DT] [--solver unity|exact] [-o traj.json|csv] [--drive JOINT=VALUE...] [--record FILE [--every N] | --replay FILE] [--json] [--junit FILE].</summary>
+/// <summary>
+/// dotnet kinefab simulate FILES --seconds S [--step DT] [--solver unity|exact] [-o traj.json|csv] [--drive JOINT=VALUE...] [--record FILE [--every N] |
+/// --replay FILE] [--json] [--junit FILE].
+/// </summary>
 internal static class SimulateCommand
 {
     internal static Command Create()

@@ -18,7 +18,8 @@ internal static class ConeLimitError
     /// <param name="limit">Half angles, radians.</param>
     /// <param name="padding">Radians.</param>
     /// <param name="swing">Rotation without twist.</param>
-    /// <param name="isExact">Whether the nearest point is found to rounding and the axis is the error's gradient; PhysX finds it coarsely, so that it jumps, and its axis near by.</param>
+    /// <param name="isExact">Whether the nearest point is found to rounding and the axis is the error's gradient; PhysX finds it coarsely, so that it jumps,
+    /// and its axis near by.</param>
     /// <param name="axis">Unit axis in frame 0 about which a positive rotation leads outwards.</param>
     /// <param name="error">Positive inside.</param>
     public static bool Find(in ConeLimit limit, double padding, Quaterniond swing, bool isExact, out Vector3d axis, out double error)

@@ -15,7 +15,8 @@ public static partial class SceneFile
     /// </summary>
     /// <param name="document">What is written is not validated; fields at their defaults are left out.</param>
     /// <param name="path">In a folder that exists.</param>
-    /// <exception cref="ArgumentException">Something is null where nothing may be (the message says where), a number is not finite, an <c>ExtrasJson</c> no object, a string no Unicode, or a binary file would have more than 4 GiB; nothing was written.</exception>
+    /// <exception cref="ArgumentException">Something is null where nothing may be (the message says where), a number is not finite, an <c>ExtrasJson</c> no
+    /// object, a string no Unicode, or a binary file would have more than 4 GiB; nothing was written.</exception>
     /// <exception cref="DirectoryNotFoundException">There is no such folder; none is made.</exception>
     /// <exception cref="IOException">The file cannot be written; the old one stands as it was.</exception>
     /// <exception cref="UnauthorizedAccessException">As above.</exception>
@@ -37,10 +38,14 @@ public static partial class SceneFile
         SavedBuffers.RemoveOthers(content.Buffers, folder, name);
     }
 
-    /// <summary>Writes a scene, as text or binary as <see cref="SceneDocument.Container"/> says; buffers that are not in it stay where they are, under the names that it states.</summary>
+    /// <summary>
+    /// Writes a scene, as text or binary as <see cref="SceneDocument.Container"/> says; buffers that are not in it stay where they are, under the names that it
+    /// states.
+    /// </summary>
     /// <param name="document">What is written is not validated; fields at their defaults are left out.</param>
     /// <param name="stream">It stays open.</param>
-    /// <exception cref="ArgumentException">Something is null where nothing may be (the message says where), a number is not finite, an <c>ExtrasJson</c> no object, a string no Unicode, a buffer of a text without name, or a binary file would have more than 4 GiB; nothing was written.</exception>
+    /// <exception cref="ArgumentException">Something is null where nothing may be (the message says where), a number is not finite, an <c>ExtrasJson</c> no
+    /// object, a string no Unicode, a buffer of a text without name, or a binary file would have more than 4 GiB; nothing was written.</exception>
     /// <exception cref="IOException">The stream cannot be written.</exception>
     public static void Save(SceneDocument document, Stream stream)
     {

@@ -71,7 +71,10 @@ internal sealed class WatchedLimits<V>
         }
     }
 
-    /// <summary>Whether the drift of a lane ended at a limit or beyond it, which is a blow, or turned a hinge so far that no pose tells whether it did, after <see cref="Measure"/>.</summary>
+    /// <summary>
+    /// Whether the drift of a lane ended at a limit or beyond it, which is a blow, or turned a hinge so far that no pose tells whether it did, after
+    /// <see cref="Measure"/>.
+    /// </summary>
     /// <param name="batch">Placed at the end of the drift.</param>
     /// <param name="lane">The lane.</param>
     /// <param name="tolerance">Largest C, m or rad.</param>

@@ -193,7 +193,8 @@ public sealed partial class World
     public WorldJoint Joint(string name) => _names.Joint(name ?? throw new ArgumentNullException(nameof(name)));
 
     /// <summary>A joint coordinate by its name: degrees (over any number of turns) or metres, zero at the start.</summary>
-    /// <param name="name">Such as Shaft, Slide.x or Lever/Crank:1.angle: the source's name for the joint, else its GameObject's id or name, and the coordinate behind it where there are several.</param>
+    /// <param name="name">Such as Shaft, Slide.x or Lever/Crank:1.angle: the source's name for the joint, else its GameObject's id or name, and the coordinate
+    /// behind it where there are several.</param>
     /// <exception cref="ArgumentException">None answers to the name, or several do: the message says which there are.</exception>
     public double this[string name]
     {

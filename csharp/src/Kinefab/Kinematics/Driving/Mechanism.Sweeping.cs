@@ -18,7 +18,8 @@ public sealed partial class Mechanism
     /// <param name="cancellation">Ends the sweep early.</param>
     /// <returns>A state for each value reached, the first at the start; where the motion ended early, why.</returns>
     /// <exception cref="ArgumentException">No coordinate answers to the name, or several do (the message says which there are).</exception>
-    /// <exception cref="ArgumentOutOfRangeException">A value is no finite number, or farther than <see cref="MechanismCoordinate.Farthest"/>, or there is not even 1 step.</exception>
+    /// <exception cref="ArgumentOutOfRangeException">A value is no finite number, or farther than <see cref="MechanismCoordinate.Farthest"/>, or there is not
+    /// even 1 step.</exception>
     /// <exception cref="OperationCanceledException">It was cancelled.</exception>
     /// <example><code>
     /// SweepResult sweep = Mechanism.Load("lever.kinefab").Sweep("Shaft", 0, 360, 72);

@@ -52,8 +52,10 @@ public sealed class PositionSolver
     /// <param name="targets">Each coordinate at most once.</param>
     /// <param name="cancellation">Ends the drive early; the state then stands somewhere on the way.</param>
     /// <returns>How far it came and what stopped it: limits and dead points are results, not errors.</returns>
-    /// <exception cref="ArgumentException">The state is another mechanism's, or a target names no coordinate, or a coordinate twice; the message says which coordinates there are.</exception>
-    /// <exception cref="ArgumentOutOfRangeException">A target is no finite number, or farther than <see cref="MechanismCoordinate.Farthest"/> from where the state stands.</exception>
+    /// <exception cref="ArgumentException">The state is another mechanism's, or a target names no coordinate, or a coordinate twice; the message says which
+    /// coordinates there are.</exception>
+    /// <exception cref="ArgumentOutOfRangeException">A target is no finite number, or farther than <see cref="MechanismCoordinate.Farthest"/> from where the
+    /// state stands.</exception>
     /// <exception cref="OperationCanceledException">It was cancelled.</exception>
     public DriveResult Drive(MechanismState state, ReadOnlySpan<CoordinateTarget> targets, CancellationToken cancellation = default)
     {
@@ -79,7 +81,8 @@ public sealed class PositionSolver
     /// <param name="cancellation">Ends the drive early; the state then stands somewhere on the way.</param>
     /// <returns>How far it came and what stopped it: limits and dead points are results, not errors.</returns>
     /// <exception cref="ArgumentException">The state is another mechanism's, or there is no such coordinate.</exception>
-    /// <exception cref="ArgumentOutOfRangeException">The value is no finite number, or farther than <see cref="MechanismCoordinate.Farthest"/> from where the state stands.</exception>
+    /// <exception cref="ArgumentOutOfRangeException">The value is no finite number, or farther than <see cref="MechanismCoordinate.Farthest"/> from where the
+    /// state stands.</exception>
     /// <exception cref="OperationCanceledException">It was cancelled.</exception>
     public DriveResult Drive(MechanismState state, int coordinate, double value, CancellationToken cancellation = default)
     {
@@ -96,7 +99,8 @@ public sealed class PositionSolver
     /// <param name="cancellation">Ends the drive early; the state then stands somewhere on the way.</param>
     /// <returns>How far it came and what stopped it: limits and dead points are results, not errors.</returns>
     /// <exception cref="ArgumentException">None answers to the name, or several do: the message says which there are.</exception>
-    /// <exception cref="ArgumentOutOfRangeException">The value is no finite number, or farther than <see cref="MechanismCoordinate.Farthest"/> from where the state stands.</exception>
+    /// <exception cref="ArgumentOutOfRangeException">The value is no finite number, or farther than <see cref="MechanismCoordinate.Farthest"/> from where the
+    /// state stands.</exception>
     /// <exception cref="OperationCanceledException">It was cancelled.</exception>
     /// <example><code>
     /// var solver = new PositionSolver(mechanism);

@@ -41,7 +41,8 @@ public sealed class Sweep
     /// <param name="cancellation">Ends the sweep early; the state then stands somewhere on the way.</param>
     /// <returns>A state for each value reached; where the motion ended early, why.</returns>
     /// <exception cref="ArgumentException">The state is another mechanism's, or there is no such coordinate.</exception>
-    /// <exception cref="ArgumentOutOfRangeException">A value is no finite number, or farther than <see cref="MechanismCoordinate.Farthest"/> from where the state stands, or there is not even 1 step.</exception>
+    /// <exception cref="ArgumentOutOfRangeException">A value is no finite number, or farther than <see cref="MechanismCoordinate.Farthest"/> from where the
+    /// state stands, or there is not even 1 step.</exception>
     /// <exception cref="OperationCanceledException">It was cancelled.</exception>
     public SweepResult Run(MechanismState state, int coordinate, double from, double to, int steps, IProgress<int>? progress = null, CancellationToken cancellation = default)
     {

@@ -15,7 +15,10 @@ namespace KinefabUnity
         /// <summary>Rigidbodies with joints; of links of an articulation a ConfigurableJoint each.</summary>
         Joints = 2,
 
-        /// <summary>ArticulationBodies: the tree of the joints becomes the hierarchy, what closes a loop stays a joint. As kinefab export --physics articulation makes them.</summary>
+        /// <summary>
+        /// ArticulationBodies: the tree of the joints becomes the hierarchy, what closes a loop stays a joint. As kinefab export --physics articulation makes
+        /// them.
+        /// </summary>
         Articulation = 3,
     }
 

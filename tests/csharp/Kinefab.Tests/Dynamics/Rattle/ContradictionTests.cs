@@ -74,7 +74,8 @@ internal sealed class ContradictionTests
 
     /// <summary>
     /// Two wheels geared 5 to 2 and a joint between them that is free about and along everything: along its Z the wheels' axles let nothing move, and no
-    /// force at all is of use there. That drive took 280 parts a step; two more against each other through the gear, which tear at their axles, a thousand, of which the slower one acts now.
+    /// force at all is of use there. That drive took 280 parts a step; two more against each other through the gear, which tear at their axles, a thousand, of
+    /// which the slower one acts now.
     /// </summary>
     [TestCase(double.NaN, MostParts)]
     [TestCase(114, MostParts)]

@@ -140,7 +140,8 @@ internal sealed class AxisRows<V>
         {
             int o = AxisLanes.Count * k * w + lane;
             double impulse = _batch.Work.PositionImpulses[_records.RowOf(k) + lane];
-            isFree &= _records.Kinds[k * w + lane] == AxisRowKind.None || (impulse >= AxisRecords<V>.Share * _records.Numbers[o + AxisLanes.Low * w] && impulse <= AxisRecords<V>.Share * _records.Numbers[o + AxisLanes.High * w]);
+            double low = AxisRecords<V>.Share * _records.Numbers[o + AxisLanes.Low * w], high = AxisRecords<V>.Share * _records.Numbers[o + AxisLanes.High * w];
+            isFree &= _records.Kinds[k * w + lane] == AxisRowKind.None || (impulse >= low && impulse <= high);
         }
 
         return isFree;
@@ -178,7 +179,9 @@ internal sealed class AxisRows<V>
             int o = AxisLanes.Count * k * w + lane;
             double impulse = _batch.VelocityImpulses[_records.RowOf(k) + lane];
             AxisRowKind kind = _records.Kinds[k * w + lane];
-            isFree &= kind != AxisRowKind.Motor || (impulse >= (1 - AxisRecords<V>.Share) * _records.Numbers[o + AxisLanes.Low * w] && impulse <= (1 - AxisRecords<V>.Share) * _records.Numbers[o + AxisLanes.High * w]);
+            const double share = 1 - AxisRecords<V>.Share;
+            double low = share * _records.Numbers[o + AxisLanes.Low * w], high = share * _records.Numbers[o + AxisLanes.High * w];
+            isFree &= kind != AxisRowKind.Motor || (impulse >= low && impulse <= high);
 
             // What pushed the joint back out of its stop on the way is no speed to leave it with.
             double sum = impulse + _batch.Work.PositionImpulses[_records.RowOf(k) + lane];

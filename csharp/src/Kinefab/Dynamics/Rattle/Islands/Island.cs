@@ -150,7 +150,12 @@ internal sealed class Island
         }
 
         RowBlock[] plain = Array.ConvertAll(Blocks, block => block.InLanes(Blocks, holdsLimits));
-        return ((IsInconsistent || Hubs.Length > 0) && Array.Exists(plain, block => block.HasAxisRow)) || Array.Exists(plain, block => block.IsAssembled || block.Rows == 0) ? null : new Island(Bodies, MovingBodies, plain, _inverseMasses, _inverseInertias, this) { Loops = Loops };
+
+        // Axis rows are in lanes where no body is a hub and no angle gives.
+        bool hasAxisRowOutOfPlace = (IsInconsistent || Hubs.Length > 0) && Array.Exists(plain, block => block.HasAxisRow);
+        return hasAxisRowOutOfPlace || Array.Exists(plain, block => block.IsAssembled || block.Rows == 0)
+            ? null
+            : new Island(Bodies, MovingBodies, plain, _inverseMasses, _inverseInertias, this) { Loops = Loops };
     }
 
     /// <summary>The joint of a row, in the vectors' order; of a coupling's row that of the coordinate that is driven.</summary>

@@ -262,9 +262,11 @@ internal sealed class RowBlock
     /// <summary>Whether the other block has the same rows between the same bodies.</summary>
     public bool HasShapeOf(RowBlock other)
     {
-        if (Bodies.Length != other.Bodies.Length || LinearMask != other.LinearMask || Angular != other.Angular || Watch != other.Watch || HasAxisRow != other.HasAxisRow || IsAxisDriven != other.IsAxisDriven
-            || !HasSame(CouplingSides, other.CouplingSides) || !HasSame(Coupled, other.Coupled) || (Coupling is null) != (other.Coupling is null) || Drives != other.Drives || HasCone != other.HasCone || AngleLimits != other.AngleLimits
-            || HasDistance != other.HasDistance)
+        bool hasSameRows = LinearMask == other.LinearMask && Angular == other.Angular && HasDistance == other.HasDistance;
+        bool hasSameAxisRow = Watch == other.Watch && HasAxisRow == other.HasAxisRow && IsAxisDriven == other.IsAxisDriven;
+        bool hasSameScalars = Drives == other.Drives && HasCone == other.HasCone && AngleLimits == other.AngleLimits;
+        bool hasSameCoupling = (Coupling is null) == (other.Coupling is null) && HasSame(CouplingSides, other.CouplingSides) && HasSame(Coupled, other.Coupled);
+        if (Bodies.Length != other.Bodies.Length || !hasSameRows || !hasSameAxisRow || !hasSameScalars || !hasSameCoupling)
         {
             return false;
         }

@@ -86,6 +86,9 @@ internal struct ConstraintRow
     public double Stiffness;
     public double Damping;
 
+    /// <summary>What the way that is left to a goal is multiplied by in C. Not written unless Motion is set.</summary>
+    public double Weight;
+
     /// <summary>Not written unless Restitution is set, nor is BounceThreshold.</summary>
     public double Restitution;
     public double BounceThreshold;

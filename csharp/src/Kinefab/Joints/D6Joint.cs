@@ -277,9 +277,10 @@ internal sealed class D6Joint : JointModel
     /// <param name="coupling">What it says of the angle.</param>
     public void Couple(int axis, AngleByOthers coupling) => (_couplings ??= new AngleByOthers?[3])[axis] = coupling;
 
-    // C = c times the angle about an axis that is left to the goal, by the shorter way, J its gradient, c as of a limit: what is prescribed is met at whatever
-    // swing. The torque, of J times it, keeps its limit. An angle that a coupling holds has weight there too; where the coupling is one of the joint's own
-    // angles it says the angle by the others, which have a value where this one has none.
+    // C = c times the angle about an axis that is left to the goal, by the shorter way, c as of a limit; what is left falls as prescribed at whatever swing.
+    // J is c times the gradient of the angle, not that of C: C falls as c does too, and a drive whose force has no end, held by a limit of the angle, would
+    // turn its joint over, to a swing of half a turn. The torque, of J times it, keeps its limit. An angle that a coupling holds has weight there too; where
+    // the coupling is one of the joint's own angles it says the angle by the others, which have a value where this one has none.
     private void AngularMotion(ref RowWriter writer, in JointFrames f, int axis, Vector3d axis1, in DriveModel drive)
     {
         Quaterniond at = f.Relative.Rotation;
@@ -294,17 +295,17 @@ internal sealed class D6Joint : JointModel
         }
 
         double angle = SwingTwist.Nearest(2 * Trigonometry.Atan2(at.Vector[axis], at.W), near);
+        Vector3d gradient = SwingTwist.WeighedGradient(f.Axis0(axis), axis1, 0, out double weight);
+        double inverse = 1 / Math.Max(SwingTwist.LeastWeight, weight);
         if (coupling != null)
         {
-            Vector3d unit = SwingTwist.WeighedGradient(f.Axis0(axis), axis1, 0, out double c);
-            writer.AngularDrive(unit * (1 / Math.Max(SwingTwist.LeastWeight, c)), 0, goal - angle, drive);
+            writer.AngularDrive(gradient * inverse, 0, goal - angle, drive);
             return;
         }
 
-        Vector3d gradient = SwingTwist.WeighedGradient(f.Axis0(axis), axis1, goal - angle, out double weight);
         DriveModel weighed = drive;
         weighed.ForceLimit /= Math.Max(SwingTwist.LeastWeight, weight);
-        writer.AngularDrive(gradient, 0, weight * (goal - angle), weighed);
+        writer.AngularDrive(gradient, 0, weight * (goal - angle), weighed, weight: weight);
     }
 
     // Both swings limited: one row on the elliptic cone, error the sine of the distance. One limited, the other locked:

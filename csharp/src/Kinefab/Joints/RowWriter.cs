@@ -150,9 +150,9 @@ internal ref struct RowWriter
     }
 
     /// <summary>Spring-damper on the relative angular velocity along an axis.</summary>
-    public void AngularDrive(Vector3d axis, double velocityTarget, double error, in DriveModel drive, SolveHint hint = SolveHint.None)
+    public void AngularDrive(Vector3d axis, double velocityTarget, double error, in DriveModel drive, SolveHint hint = SolveHint.None, double weight = 1)
     {
-        Drive(ref AngularRow(axis, error, hint: hint), velocityTarget, drive, Prescribed(drive));
+        Drive(ref AngularRow(axis, error, hint: hint), velocityTarget, drive, Prescribed(drive), weight);
     }
 
     /// <summary>A velocity motor: Cdot = J.(w0 - w1) with J = -axis is driven to the target within the limits.</summary>
@@ -194,7 +194,7 @@ internal ref struct RowWriter
     /// <summary>What a drive's rows prescribe.</summary>
     public Prescribed Prescribed(in DriveModel drive) => _everyLimit ? drive.Prescribes : default;
 
-    private static void Drive(ref ConstraintRow row, double velocityTarget, in DriveModel drive, Prescribed prescribed)
+    private static void Drive(ref ConstraintRow row, double velocityTarget, in DriveModel drive, Prescribed prescribed, double weight = 1)
     {
         row.Minimum = -drive.ForceLimit;
         row.Maximum = drive.ForceLimit;
@@ -204,6 +204,7 @@ internal ref struct RowWriter
         {
             row.Stiffness = drive.Stiffness / drive.Damping;
             row.VelocityTarget = -row.Stiffness * row.GeometricError;
+            row.Weight = weight;
             row.Flags |= RowFlags.Motion;
         }
 

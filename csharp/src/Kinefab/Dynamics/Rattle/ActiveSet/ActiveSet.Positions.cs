@@ -24,7 +24,7 @@ internal sealed partial class ActiveSet<V>
                 error = scalar.Kind switch
                 {
                     RowKind.Limit => scalar.End.GeometricError - scalar.Limit.Allowed,
-                    RowKind.Motion => scalar.End.GeometricError - scalar.EndError,
+                    RowKind.Motion => scalar.Ahead,
                     RowKind.SpeedMotor => h * (DriftSpeed(scalar) - scalar.Built.VelocityTarget),
                     _ => h * (SpringSpeed(scalar) + (scalar.ImpulseFirstHalf / scalar.Theta - scalar.Spring.Law.RestImpulse) / scalar.Spring.Law.ImplicitDamping),
                 };
@@ -255,7 +255,7 @@ internal sealed partial class ActiveSet<V>
                 double excess = DriftSpeed(scalar) - scalar.Built.VelocityTarget;
                 return (scalar.ImpulseFirstHalf >= high && excess > tolerance) || (scalar.ImpulseFirstHalf <= low && excess < -tolerance);
             case RowKind.Motion:
-                double ahead = scalar.End.GeometricError - scalar.EndError;
+                double ahead = scalar.Ahead;
                 return (scalar.ImpulseFirstHalf >= high && ahead > tolerance) || (scalar.ImpulseFirstHalf <= low && ahead < -tolerance);
             default:
                 double wanted = scalar.Spring.Law.RestImpulse - scalar.Spring.Law.ImplicitDamping * SpringSpeed(scalar);

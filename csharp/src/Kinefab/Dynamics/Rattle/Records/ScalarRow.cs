@@ -93,7 +93,7 @@ internal struct ScalarRow
     /// <summary>C at the start of the step, m or rad.</summary>
     public double StartError;
 
-    /// <summary>C that a prescribed motion is to have at the end of the step, m or rad.</summary>
+    /// <summary>C that a prescribed motion is to have at the end of the step by the weight that C has at its start, m or rad.</summary>
     public double EndError;
 
     /// <summary>Speed of the row at the start of the step, m/s or rad/s; in an impact, before it.</summary>
@@ -206,6 +206,9 @@ internal struct ScalarRow
     /// <summary>The C that is wanted of a prescribed motion at the end of the step, of e^(-x) to second order and never beyond the goal.</summary>
     /// <param name="h">Step, s.</param>
     public void SetMotion(double h) => EndError = StartError / Growth(h);
+
+    /// <summary>How far a prescribed motion is from where it is to be at the end of the step, as C there: the way that is left falls, whatever becomes of its weight.</summary>
+    public readonly double Ahead => End.GeometricError - EndError * (Built.Weight > SwingTwist.LeastWeight ? End.Weight / Built.Weight : 1);
 
     /// <summary>Slows a drive down, or lets it go faster again.</summary>
     /// <param name="times">How often it is slowed down in all.</param>

@@ -270,6 +270,31 @@ public sealed class WorldCreationTests
         Assert.That(world.Bodies[0].LinearVelocity.Length, Is.LessThan(1e-9));
     }
 
+    [TestCase(false, "degrees/s")]
+    [TestCase(true, "m/s")]
+    public void Speeds_ThatAGearForbids_AreToldInTheUnitOfWhatFollows(bool isRack, string unit)
+    {
+        const ConfigurableJointMotion l = ConfigurableJointMotion.Locked;
+        Component follower = isRack
+            ? new ConfigurableJoint { XMotion = ConfigurableJointMotion.Free, YMotion = l, ZMotion = l, AngularXMotion = l, AngularYMotion = l, AngularZMotion = l }
+            : new HingeJoint { Axis = Vector3d.UnitZ };
+        var scene = new SceneDocument
+        {
+            GameObjects = [Body("driver", new HingeJoint { Axis = Vector3d.UnitZ }), Body("follower", follower)],
+            Couplings = [new Coupling { Kind = isRack ? CouplingKind.Rack : CouplingKind.Gear, A = At(0, Coordinate.Angle), B = At(1, isRack ? Coordinate.X : Coordinate.Angle), Ratio = -2.5 }],
+        };
+        World world = World.Create(SmallScene.Validate(scene), SolverKind.Exact);
+        world.Bodies[0].AngularVelocity = 3 * Vector3d.UnitZ;
+        world.Step(0.02);
+        Diagnostic found = world.Findings.Diagnostics.Single();
+        Assert.That((found.Code, found.Pointer), Is.EqualTo((DiagnosticCodes.StartSpeedForbidden, "/gameObjects/1/components/1")));
+        Assert.That(found.Message, Does.Contain($" {unit}"));
+
+        static JointCoordinate At(int body, Coordinate coordinate) => new() { GameObject = body, Component = 1, Coordinate = coordinate };
+
+        static GameObject Body(string id, Component joint) => new() { Id = id, Name = id, Components = [new Rigidbody { Mass = 1, InertiaTensor = new Vector3d(1, 1, 1) }, joint] };
+    }
+
     // Damping takes of turning not what it takes of going, so that what is left is not as the joint has it.
     [TestCase(0, 0.05)]
     [TestCase(0.5, 0)]

@@ -14,7 +14,7 @@ internal sealed partial class StepController
     {
         return _worst < 0
             ? new UnsolvedStep { Body = island.Bodies[0], Troubles = _troubles }
-            : new UnsolvedStep { Body = island.Bodies[0], Troubles = _troubles, Joint = island.JointOf(_worst), Error = _worstError, IsAngular = island.IsAngular[_worst] };
+            : new UnsolvedStep { Body = island.Bodies[0], Troubles = _troubles, Joint = island.JointOf(_worst), Error = _worstError, IsAngular = island.IsInRadians(_worst) };
     }
 
     /// <summary>The joints whose limits stand passed and cannot be closed are added to a list.</summary>

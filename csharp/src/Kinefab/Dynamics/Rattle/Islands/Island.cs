@@ -161,8 +161,15 @@ internal sealed class Island
     /// <summary>The joint of a row, in the vectors' order; of a coupling's row that of the coordinate that is driven.</summary>
     public JointModel JointOf(int row)
     {
-        int n = Array.FindLastIndex(Pattern.Rows, first => first <= row);
-        return Blocks[n].Joint ?? Blocks[n].Coupling!.Coordinates[^1].Joint;
+        RowBlock block = Blocks[BlockOf(row)];
+        return block.Joint ?? block.Coupling!.Coordinates[^1].Joint;
+    }
+
+    /// <summary>Whether C of a row, in the vectors' order, is in radians; that of a coupling is in the unit of the coordinate that is driven.</summary>
+    public bool IsInRadians(int row)
+    {
+        CoordinateCoupling? coupling = Blocks[BlockOf(row)].Coupling;
+        return coupling != null ? coupling.Coordinates[^1].IsAngle : IsAngular[row];
     }
 
     /// <summary>Whether the other island is of the same build, so that both can share lanes.</summary>
@@ -195,6 +202,8 @@ internal sealed class Island
 
         return isSame;
     }
+
+    private int BlockOf(int row) => Array.FindLastIndex(Pattern.Rows, first => first <= row);
 
     private static int[] FindMeanRate(RowBlock[] blocks, int movingBodies)
     {

@@ -68,7 +68,7 @@ internal sealed class StepStart
     /// <summary>The largest forbidden speed.</summary>
     /// <param name="island">The island that was stepped; the batch may be of another of its shape.</param>
     public ForbiddenSpeed Forbidden(Island island) =>
-        new() { Body = island.Bodies[0], Joint = island.JointOf(_forbidden), Speed = _forbiddenSpeed, IsAngular = island.IsAngular[_forbidden] };
+        new() { Body = island.Bodies[0], Joint = island.JointOf(_forbidden), Speed = _forbiddenSpeed, IsAngular = island.IsInRadians(_forbidden) };
 
     /// <summary>What was moved to close the pose.</summary>
     /// <param name="island">The island that was stepped; the batch may be of another of its shape.</param>
@@ -77,7 +77,7 @@ internal sealed class StepStart
         Body = island.Bodies[0],
         Joint = island.JointOf(_closure.Worst),
         Error = _closure.WorstError,
-        IsAngular = island.IsAngular[_closure.Worst],
+        IsAngular = island.IsInRadians(_closure.Worst),
         Distance = _closure.Distance,
         Angle = _closure.Angle,
     };

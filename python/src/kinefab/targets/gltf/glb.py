@@ -16,7 +16,7 @@ from ...geometry.collision import hollow_pieces, is_split
 from ...model import PLAIN, Body, Collider, ColliderKind, Mesh, Physics
 from ...options import ColliderShape
 from ...replacing import replacing
-from ...rigid import active_nodes, is_dynamic, moves_nothing
+from ...rigid import active_nodes, dynamic_nodes, moves_nothing
 from ...spatial import Array, Pose, quaternion_from_matrix
 from ...unity.bodies.rigidbodies import body_dynamics, body_mass, parents_beside, place_rigidbodies
 from ...unity.bodies.standing import bases_of
@@ -71,6 +71,7 @@ class _Document:
         self.model_meshes = list(content.drawn().meshes)
         self.pieces_of: dict[int, range] = {}
         self.active = active_nodes(content.scene)
+        self.dynamic = dynamic_nodes(content.scene, content.groups)
         self.placed = place_rigidbodies(content.scene, content.groups)
 
     def built(self) -> dict[str, Any]:
@@ -159,10 +160,6 @@ class _Document:
             for collider in node.colliders or ():
                 self._add_collider(i, index, collider)
 
-    def _moves(self, node: int) -> bool:
-        """Whether forces move a node's body."""
-        return is_dynamic(self.scene, self.content.groups, node)
-
     def _add_body(self, node: int, parent: int, body: Body) -> None:
         assert body.mesh is not None
         own = self.scene.nodes[node]
@@ -174,7 +171,7 @@ class _Document:
         shape = own.collision or self.content.colliders
         if own.colliders is not None or shape is ColliderShape.NONE:
             return
-        if body.mesh in self.pieces_of and is_split(shape, self._moves(node)):
+        if body.mesh in self.pieces_of and is_split(shape, self.dynamic[node]):
             self._collide_by_pieces(node, index, body, {})
             return
         holder = index
@@ -183,7 +180,7 @@ class _Document:
             holder, geometry = self._node("box", index, around.pose), self.physics.geometry(around)
         else:
             geometry = {"node": index if "mesh" in self.nodes[index] else self._shape(body.name, body.mesh)}
-            if self._moves(node) or shape is ColliderShape.HULL:
+            if self.dynamic[node] or shape is ColliderShape.HULL:
                 geometry["convexHull"] = True
                 if shape is ColliderShape.MESH:
                     self._tell_hull(f"collider {own.id}/{body.name}", own.where)
@@ -210,7 +207,7 @@ class _Document:
             assert collider.mesh is not None
             shape = self._shape(collider.name or collider.kind.value, collider.mesh)
             geometry: dict[str, Any] = {"node": shape}
-            if collider.kind is not ColliderKind.MESH or self._moves(node):
+            if collider.kind is not ColliderKind.MESH or self.dynamic[node]:
                 geometry["convexHull"] = True
                 if collider.kind is ColliderKind.MESH:
                     self._tell_hull(feature, collider.where)
